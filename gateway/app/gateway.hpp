@@ -81,6 +81,7 @@ class Gateway final : public MachineGateway {
   Reply set_position(const dds::Command& command);
   std::optional<Reply> begin_jog(const dds::Command& command);
   bool stop_jog(std::string_view why);
+  bool stop_homing(std::string_view why);
   void on_jog(const dds::Command& command);
   void answer_jog();
   void give_answer(const std::string& command, const Reply& reply);

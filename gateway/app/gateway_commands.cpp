@@ -129,6 +129,13 @@ bool Gateway::stop_jog(std::string_view why) {
   return true;
 }
 
+/// False: no axes are homed.
+bool Gateway::stop_homing(std::string_view why) {
+  if (run_.session || !machine_->stop_homing()) return false;
+  process::log_info("homing stopped {} {}", why, run_.label());
+  return true;
+}
+
 void Gateway::answer_jog() {
   const auto answer = jogger_.take_answer();
   if (!answer) return;
@@ -149,6 +156,7 @@ Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {
   if ((is_hold || command.action == CommandAction::Abort) && stop_jog("by command")) return {};
   if (command.argument == dds::kJogAbort && command.action == CommandAction::Abort)
     return refuse("nothing is jogged");
+  if ((is_hold || command.action == CommandAction::Abort) && stop_homing("by command")) return {};
   if (auto refusal = panel_.refusal_without_consent(command)) return *refusal;
   if (command.action == CommandAction::SetPosition) return set_position(command);
   if (command.action == CommandAction::Playback) {
@@ -316,6 +324,7 @@ Reply Gateway::carry_out(const PanelCommand& command) {
   }
   const bool is_stop = command.verb == Verb::Hold || command.verb == Verb::Abort;
   if (is_stop && stop_jog("at the machine's panel")) return {};
+  if (is_stop && stop_homing("at the machine's panel")) return {};
   if (!run_.is_active()) return refuse("no run is active");
   switch (command.verb) {
     case Verb::CycleStart:

@@ -170,7 +170,7 @@ class MotionBackend {
   virtual void hold() = 0;
   /// Cycle start: ends a hold, a stop or a single-block stop. False when there was none.
   virtual bool resume() = 0;
-  /// Ends a hold that the owner's own trouble was the reason of. False: this one is left to the
+  /// Ends a hold that a fault of the owner's own was the reason of. False: this one is left to the
   /// operator, a safety door was opened meanwhile.
   virtual bool continue_unattended() { return resume(); }
   /// The handwheel was turned, in handwheel mode: lets `program_time` pass, no faster than by
@@ -183,6 +183,8 @@ class MotionBackend {
   virtual Result<void> home() {
     return fail(Errc::Unsupported, "this machine has nothing to home");
   }
+  /// Stops what `home` has begun; the position is lost then. False: nothing is homed.
+  virtual bool stop_homing() { return false; }
   /// Takes the position of a locked machine for right, without homing. Errors: as for home.
   virtual Result<void> unlock() {
     return fail(Errc::Unsupported, "this machine has nothing to unlock");

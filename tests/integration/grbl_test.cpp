@@ -89,6 +89,20 @@ TEST_F(GrblSystem, TheExampleRunsOnTheBoardOfItsReadme) {
   EXPECT_NEAR(at[2], 30, 1e-3);
 }
 
+TEST_F(GrblSystem, HoldAndAbortAtThePanelStopHoming) {
+  start("rs274ngc", {.is_locked = true, .homing_seconds = 1000}, 1);
+  const auto resets = [&] {
+    return board->with([](GrblBoard& peer) { return std::ranges::count(peer.real_time, '\x18'); });
+  };
+  for (const char* verb : {"hold", "abort"}) {
+    ASSERT_TRUE(eventually([&] { return panel({"home"}).status == 0; })) << verb;
+    const auto before = resets();
+    const auto stopped = panel({verb});
+    EXPECT_EQ(stopped.status, 0) << stopped.output;
+    EXPECT_TRUE(eventually([&] { return resets() > before; })) << verb;
+  }
+}
+
 TEST_F(GrblSystem, HoldsResumesAndAborts) {
   start();
   system->push("path", straight_program(2000, kFeed));

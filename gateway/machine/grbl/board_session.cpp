@@ -168,6 +168,7 @@ Result<void> BoardSession::check_ready() const {
   if (phase_ != Phase::Ready || !not_ready_.empty()) return fail(Errc::Busy, "{}", not_ready_);
   if (!report_ || !has_position_)
     return fail(Errc::Busy, "the board has not reported its state yet");
+  if (is_homing()) return fail(Errc::Busy, "the board homes its axes");
   switch (report_->state) {
     case BoardState::Idle:
       return {};

@@ -94,6 +94,9 @@ class BoardSession final : public streamed::Device {
   OperatorPanel known(OperatorPanel panel) const override { return OverrideSender::known(panel); }
   void set_overrides(const OperatorPanel& panel) override { overrides_.want(panel); }
   Result<void> home(SteadyTime now) override { return reference(true, now); }
+  bool is_homing() const override { return homing_limit_ && reference_ == PositionTrust::Homed; }
+  /// A soft reset: a board that homes obeys nothing else.
+  void stop_homing(SteadyTime now) override;
   Result<void> unlock(SteadyTime now) override { return reference(false, now); }
   std::string hold_reason() const override;
   /// `$J=`, which changes no mode of the board; stopped by its own real-time byte.

@@ -78,6 +78,7 @@ void GrblMachine::line_closing() {
   const Lock lock = lock_device();
   forbid(lock);
   session_->stop_jog(now());
+  session_->stop_homing(now());
   if (!session_->is_empty()) session_->hold(now());
 }
 

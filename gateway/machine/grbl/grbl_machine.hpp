@@ -31,7 +31,8 @@ class GrblMachine final : public streamed::StreamedMachine {
   void line_lost(const std::string& reason);
   /// Takes what came; returns what must be written. To be called at least every 10 ms.
   BoardOutput exchange(std::span<const std::byte> bytes);
-  /// The line is about to be closed in the midst of a program: the board is held.
+  /// The line is about to be closed: a board that executes a program is held, one that homes is
+  /// reset.
   void line_closing();
   /// Why the line should be opened again; empty: it should not.
   std::string reopen_reason() const;

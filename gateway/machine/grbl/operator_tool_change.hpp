@@ -24,7 +24,7 @@ class OperatorToolChange final : public interpreter::EventFilter {
   void on_block_end(const interpreter::Origin& origin) override;
 
  private:
-  /// Without a number nobody knows which tool the stop was for.
+  /// Without a number it is not known which tool the stop was for.
   bool has_stopped_for_tool() const { return has_stopped_ && tool_ && stopped_for_ == tool_; }
   void want_tool() { wants_tool_ = !has_stopped_for_tool(); }
   void stop_for_tool(const interpreter::Origin& origin);

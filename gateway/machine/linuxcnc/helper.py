@@ -135,6 +135,7 @@ class Machine:
         self.has_program = False
         self.file = None
         self.jogged_axis = None
+        self.has_homed = False
 
     def wait_for_status(self):
         end = time.monotonic() + 5
@@ -188,7 +189,7 @@ class Machine:
             "inpos": bool(s.inpos),
             "paused": bool(s.paused or s.interp_state == linuxcnc.INTERP_PAUSED),
             "homed": all(s.homed[:joints]),
-            "homing": any(j["homing"] for j in s.joint[:joints]),
+            "homing": self.homes(),
             "at": list(s.position),
             "actual": list(s.actual_position),
             "velocity": s.current_vel,
@@ -230,7 +231,7 @@ class Machine:
             c.auto(linuxcnc.AUTO_RESUME)
         elif what == "abort":
             c.abort()
-            self.has_program = False
+            self.has_program = self.has_homed = False
         elif what == "override":
             c.feedrate(order["feed"])
             c.rapidrate(order["rapid"])
@@ -250,6 +251,7 @@ class Machine:
             self.to_mode(linuxcnc.MODE_MANUAL)
             c.teleop_enable(0)
             c.wait_complete(COMMAND_WAIT)
+            self.has_homed = True
             c.home(-1)
         elif what == "jog":
             return self.jog(order)
@@ -275,12 +277,23 @@ class Machine:
         self.command.wait_complete(COMMAND_WAIT)
         return ""
 
+    def homes(self):
+        return any(j["homing"] for j in self.stat.joint[:self.stat.joints])
+
+    def is_homing(self):
+        """Or was only just commanded to."""
+        self.stat.poll()
+        return self.homes() or not all(self.stat.homed[:self.stat.joints])
+
     def leave(self):
         if self.jogged_axis is not None:
             self.command.jog(linuxcnc.JOG_STOP, 0, self.jogged_axis)
         if self.has_program:
             self.command.abort()
             self.remove_program()
+            self.command.wait_complete(LEAVE_WAIT)
+        elif self.has_homed and self.is_homing():
+            self.command.abort()
             self.command.wait_complete(LEAVE_WAIT)
         os._exit(0)  # stdout may be gone: nothing to flush
 

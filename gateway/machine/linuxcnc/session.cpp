@@ -28,6 +28,7 @@ void Session::opened(SteadyTime now) {
   rules_ = {};
   status_.reset();
   signal_.reset();
+  homing_.reset();
   command_number_ = done_number_ = awaited_ = must_obey_ = shown_number_ = 0;
   sent_overrides_ = {};
   trouble_ = "LinuxCNC has not answered yet";
@@ -209,6 +210,7 @@ void Session::on(const StatusReply& status, SteadyTime now) {
   watch_end(now);
   watch_state(now);
   watch_jog(now);
+  watch_homing(now);
 }
 
 void Session::begin_stop(SteadyTime now) {

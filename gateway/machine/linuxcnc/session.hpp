@@ -86,6 +86,8 @@ class Session final : public streamed::Device {
   OperatorPanel known(OperatorPanel panel) const override { return panel; }
   void set_overrides(const OperatorPanel& panel) override;
   Result<void> home(SteadyTime now) override;
+  bool is_homing() const override;
+  void stop_homing(SteadyTime now) override;
   Result<void> unlock(SteadyTime now) override;
   /// By LinuxCNC's own incremental jog, in its teleop mode.
   Result<void> jog(const Jog& jog, SteadyTime now) override;
@@ -133,6 +135,7 @@ class Session final : public streamed::Device {
   void watch_stall(SteadyTime now);
   void end_jog(std::string fault);
   void watch_jog(SteadyTime now);
+  void watch_homing(SteadyTime now);
   void begin_stop(SteadyTime now);
   void abort(SteadyTime now);
   void end_program(SteadyTime now);
@@ -185,6 +188,11 @@ class Session final : public streamed::Device {
   };
   std::optional<JogInHand> jog_;
   std::string jog_fault_;
+  struct HomingInHand {
+    std::uint64_t number = 0;  ///< of its command
+    SteadyTime seen{};
+  };
+  std::optional<HomingInHand> homing_;
 
   bool is_active_ = false, is_held_ = false, is_resuming_ = false, was_paused_ = false;
   bool is_stopping_ = false, aborts_first_ = false, is_emergency_ = false;

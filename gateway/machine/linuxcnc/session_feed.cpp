@@ -301,9 +301,10 @@ void Session::set_overrides(const OperatorPanel& panel) {
   overrides_.spindle_override = panel.spindle_override;
 }
 
-Result<void> Session::home(SteadyTime) {
+Result<void> Session::home(SteadyTime now) {
   if (auto ready = unlock({}); !ready) return ready;
   must_obey_ = command(R"("do":"home")");
+  homing_ = HomingInHand{.number = must_obey_, .seen = now};
   return {};
 }
 

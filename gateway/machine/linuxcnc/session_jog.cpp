@@ -1,4 +1,4 @@
-// One axis by a distance, without a program.
+// Axes that move without a program: one by a distance, and all to their reference points.
 #include <cmath>
 
 #include "gateway/machine/linuxcnc/session.hpp"
@@ -47,6 +47,24 @@ void Session::watch_jog(SteadyTime now) {
   if (now - jog_->still_since < needed) return;
   const bool has_message = !is_there && !jog_->is_stopped && !last_error_.empty();
   end_jog(has_message ? last_error_ : std::string());
+}
+
+bool Session::is_homing() const {
+  return phase_ == Phase::Ready && status_ && !is_active_ && (status_->is_homing || homing_);
+}
+
+/// The helper executes its commands in their order.
+void Session::stop_homing(SteadyTime now) {
+  if (is_homing()) abort(now);
+}
+
+/// LinuxCNC homes one group of axes after another: between two of them none is.
+void Session::watch_homing(SteadyTime now) {
+  if (!homing_) return;
+  if (status_->is_homing || shown_number_ < homing_->number)
+    homing_->seen = now;
+  else if (now - homing_->seen > limits_.late)
+    homing_.reset();
 }
 
 }  // namespace dripline::machine::linuxcnc

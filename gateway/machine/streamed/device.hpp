@@ -92,6 +92,10 @@ class Device {
   /// Of feed, rapid and spindle, as factors.
   virtual void set_overrides(const OperatorPanel& panel) = 0;
   virtual Result<void> home(SteadyTime now) = 0;
+  /// Until the axes are at their reference points, or were stopped.
+  virtual bool is_homing() const = 0;
+  /// The position is lost.
+  virtual void stop_homing(SteadyTime now) = 0;
   virtual Result<void> unlock(SteadyTime now) = 0;
   /// One axis by a distance, with no program active, at rest and ready. Errors: Unsupported, Busy.
   virtual Result<void> jog(const Jog&, SteadyTime /*now*/) {

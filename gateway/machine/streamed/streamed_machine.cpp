@@ -214,6 +214,7 @@ void StreamedMachine::report_off() {
 
 void StreamedMachine::hold() {
   if (is_jogging()) return stop_jog();
+  if (stop_homing()) return;
   {
     const Lock lock(mutex_);
     is_held_by_override_ = false;
@@ -248,6 +249,7 @@ bool StreamedMachine::continue_unattended() {
 
 void StreamedMachine::abort() {
   if (is_jogging()) return stop_jog();
+  if (stop_homing()) return;
   {
     const Lock lock(mutex_);
     if (is_over() || is_aborting_) return;
@@ -261,6 +263,16 @@ Result<void> StreamedMachine::home() {
   const Lock lock(mutex_);
   if (is_emergency_) return fail(Errc::Busy, "the emergency stop is pressed");
   return device_.home(now());
+}
+
+bool StreamedMachine::stop_homing() {
+  {
+    const Lock lock(mutex_);
+    if (!device_.is_homing()) return false;
+    device_.stop_homing(now());
+  }
+  wake();
+  return true;
 }
 
 Result<void> StreamedMachine::unlock() {

@@ -56,6 +56,7 @@ class StreamedMachine : public MotionBackend {
   void turn_handwheel(Seconds) override {}
   void abort() override;
   Result<void> home() override;
+  bool stop_homing() override;
   Result<void> unlock() override;
   Result<void> jog(const Jog& jog) override;
   bool is_jogging() const override;

@@ -397,6 +397,43 @@ TEST(GrblReference, TheEmergencyStopEndsHoming) {
   EXPECT_TRUE(shop.machine.home());
 }
 
+TEST(GrblReference, AStopEndsHoming) {
+  for (const char* by : {"stop_homing", "hold", "abort", "the end of the gateway"}) {
+    GrblShop shop({.is_locked = true});
+    EXPECT_FALSE(shop.machine.stop_homing());
+    EXPECT_TRUE(shop.machine.home());
+    shop.pass(1);
+    EXPECT_FALSE(shop.machine.check_begin({})) << "it is at it";
+    const std::string_view how = by;
+    if (how == "hold")
+      shop.machine.hold();
+    else if (how == "abort")
+      shop.machine.abort();
+    else if (how == "stop_homing")
+      EXPECT_TRUE(shop.machine.stop_homing());
+    else
+      shop.machine.line_closing();
+    shop.pass(0.05);
+    EXPECT_NE(shop.board.real_time.find('\x18'), std::string::npos) << by;
+    shop.pass(9);
+    EXPECT_FALSE(shop.machine.stop_homing());
+    EXPECT_FALSE(shop.machine.check_begin({})) << "not homed";
+    EXPECT_EQ(shop.machine.position_trust(), PositionTrust::Lost);
+    EXPECT_TRUE(shop.machine.home()) << by;
+  }
+}
+
+TEST(GrblReference, NoProgramBeginsWhileItHomes) {
+  GrblShop shop({.is_locked = true});
+  EXPECT_TRUE(shop.machine.home());
+  shop.pass(9);
+  ASSERT_TRUE(shop.machine.check_begin({}));
+  EXPECT_TRUE(shop.machine.home()) << "once more";
+  EXPECT_FALSE(shop.machine.check_begin({}));
+  shop.pass(9);
+  EXPECT_TRUE(shop.machine.check_begin({}));
+}
+
 /// What a restart may rely on.
 class GrblTrust : public ::testing::Test {
  protected:

@@ -15,6 +15,9 @@ inline constexpr std::string_view kHello =
     R"([0,0],[0,0],[0,0],[0,0],[0,0],[0,0]],"wrapped":0,"velocity":[200,200,200,0,0,0,0,0,0],)"
     R"("acceleration":[2000,500,2000,0,0,0,0,0,0],"rpm":6000,"read_ahead":2,"startup_code":"","adaptive":false,"settings":""})";
 
+inline const std::string kOverridesOf100 =
+    "{\"n\":1,\"do\":\"override\",\"feed\":1.0000,\"rapid\":1.0000,\"spindle\":1.0000}\n";
+
 /// A session whose helper is the test: it reads what LinuxCNC was sent, and reports what the test
 /// has set.
 class FakeHelper {
@@ -32,11 +35,11 @@ class FakeHelper {
   void report() {
     say(fmt::format(
         R"({{"status":{{"state":{},"mode":2,"interp":{},"exec":2,"read":{},"motion":{},"queue":{},)"
-        R"("inpos":{},"paused":{},"homed":{},"homing":false,"at":[{},0,0,0,0,0,0,0,0],)"
+        R"("inpos":{},"paused":{},"homed":{},"homing":{},"at":[{},0,0,0,0,0,0,0,0],)"
         R"("actual":[0,0,0,0,0,0,0,0,0],"velocity":{},"offset":{},"system":9,"tool":0,)"
         R"("spindle":0.0,"adaptive":{},"touching":{},"tripped":false,"probing":false,"probed":[0,0,0,0,0,0,0,0,0],)"
         R"("inputs":5,"inputs_above":2,"echo":1}}}})",
-        state, interpreter, read, motion, motion > 0 ? 1 : 0, motion == 0, paused, homed, x,
+        state, interpreter, read, motion, motion > 0 ? 1 : 0, motion == 0, paused, homed, homing, x,
         velocity, has_offset, adaptive, touching));
   }
   void done(std::uint64_t number, const std::string& problem = "") {
@@ -56,7 +59,7 @@ class FakeHelper {
     EXPECT_TRUE(session.wants_feed());
     session.feed_opened("/fifo", now);
     pass(1ms);
-    done(1);
+    obey();
     interpreter = 2;
     read = 5;
     report();
@@ -76,7 +79,8 @@ class FakeHelper {
   SteadyTime now{};
   int state = 4, interpreter = 1;
   std::uint64_t read = 0, motion = 0;
-  bool paused = false, homed = true, has_offset = false, adaptive = false, touching = false;
+  bool paused = false, homed = true, homing = false, has_offset = false, adaptive = false,
+       touching = false;
   double x = 0, velocity = 0;
   Session session;
   std::string text, commands;
