@@ -30,7 +30,7 @@ void Session::opened(SteadyTime now) {
   signal_.reset();
   homing_.reset();
   command_number_ = done_number_ = awaited_ = must_obey_ = shown_number_ = 0;
-  sent_overrides_ = {};
+  has_sent_overrides_ = are_overrides_due_ = false;
   trouble_ = "LinuxCNC has not answered yet";
   keeps_position_ = true;
   if (feed_ == Feed::Stopping) feed_began_ = now;
@@ -67,6 +67,14 @@ std::uint64_t Session::command(const std::string& members) {
   return command_number_;
 }
 
+void Session::send_overrides() {
+  command(fmt::format(R"("do":"override","feed":{:.4f},"rapid":{:.4f},"spindle":{:.4f})",
+                      overrides_.feed_override, overrides_.rapid_override,
+                      overrides_.spindle_override));
+  has_sent_overrides_ = true;
+  are_overrides_due_ = false;
+}
+
 void Session::receive(std::span<const std::byte> bytes, SteadyTime now) {
   if (phase_ == Phase::Closed || !reopen_reason_.empty()) return;
   if (now - second_began_ >= std::chrono::seconds(1)) second_began_ = now, bytes_in_second_ = 0;
@@ -91,12 +99,7 @@ void Session::tick(SteadyTime now, bool is_dry) {
   if (feed_ == Feed::Stopping && phase_ != Phase::Closed && now - feed_began_ > limits_.answer)
     end_feed();
   if (is_stopping_ && now > stop_limit_) is_stopping_ = false;
-  if (phase_ == Phase::Ready && !fault_ && overrides_ != sent_overrides_ && !is_stopping_) {
-    command(fmt::format(R"("do":"override","feed":{:.4f},"rapid":{:.4f},"spindle":{:.4f})",
-                        overrides_.feed_override, overrides_.rapid_override,
-                        overrides_.spindle_override));
-    sent_overrides_ = overrides_;
-  }
+  if (phase_ == Phase::Ready && !fault_ && are_overrides_due_ && !is_stopping_) send_overrides();
   if (feed_ == Feed::Reading) {
     const bool may_end = text_.empty() && is_dry && markers_.empty() && !in_flight_.empty();
     if (may_end && in_flight_.back() > flushed_ && now - sent_at_ >= limits_.flush)

@@ -126,6 +126,7 @@ class Session final : public streamed::Device {
   void on(const GarbageReply& garbage, SteadyTime now);
 
   std::uint64_t command(const std::string& members);
+  void send_overrides();
   std::uint64_t write(std::string_view line);
   void execute_to(std::uint64_t line);
   void take_progress(SteadyTime now);
@@ -196,7 +197,9 @@ class Session final : public streamed::Device {
 
   bool is_active_ = false, is_held_ = false, is_resuming_ = false, was_paused_ = false;
   bool is_stopping_ = false, aborts_first_ = false, is_emergency_ = false;
-  OperatorPanel overrides_, sent_overrides_;
+  OperatorPanel overrides_;
+  bool has_sent_overrides_ = false;  ///< of this helper: LinuxCNC has those that were sent last
+  bool are_overrides_due_ = false;
   int garbage_ = 0;
   std::size_t bytes_in_second_ = 0;
   std::chrono::milliseconds longest_{};

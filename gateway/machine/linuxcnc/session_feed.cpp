@@ -164,6 +164,9 @@ void Session::feed_opened(const std::string& path, SteadyTime now) {
   preamble_ = write(kMarker);
   in_flight_.push_back(preamble_);
   markers_.push_back(preamble_);
+  // LinuxCNC keeps those of another helper, or of its own screen. Not before: it may be at
+  // something of its own.
+  if (!has_sent_overrides_) send_overrides();
   awaited_ = command(fmt::format(R"("do":"run","file":"{}")", path));
 }
 
@@ -295,10 +298,11 @@ bool Session::resume(SteadyTime now) {
 }
 
 void Session::set_overrides(const OperatorPanel& panel) {
-  overrides_ = {};
+  const OperatorPanel before = std::exchange(overrides_, {});
   overrides_.feed_override = panel.feed_override;
   overrides_.rapid_override = panel.rapid_override;
   overrides_.spindle_override = panel.spindle_override;
+  if (overrides_ != before) are_overrides_due_ = true;
 }
 
 Result<void> Session::home(SteadyTime now) {

@@ -3,6 +3,50 @@
 namespace dripline::machine::linuxcnc::test {
 namespace {
 
+TEST(LinuxCncOverrides, AreSentBeforeTheFirstLineOfAProgram) {
+  FakeHelper helper;
+  helper.pass(1ms);
+  EXPECT_EQ(helper.commands, "") << "LinuxCNC may be at something of its own";
+  helper.session.set_active(true, helper.now);
+  (void)helper.session.prepare(helper.now);
+  helper.session.feed_opened("/fifo", helper.now);
+  helper.pass(1ms);
+  EXPECT_TRUE(helper.commands.starts_with(kOverridesOf100)) << helper.commands;
+}
+
+TEST(LinuxCncOverrides, ThatWereSetWhileTheHelperWasAwayAreSent) {
+  FakeHelper helper;
+  helper.session.set_overrides({.feed_override = 1.5});
+  helper.pass(1ms);
+  EXPECT_NE(helper.commands.find("\"feed\":1.5000"), std::string::npos);
+  helper.session.lost("the helper has ended");
+  helper.session.set_overrides({});
+  helper.session.opened(helper.now);
+  helper.say(std::string(kHello));
+  helper.report();
+  helper.commands.clear();
+  helper.session.set_active(true, helper.now);
+  (void)helper.session.prepare(helper.now);
+  helper.session.feed_opened("/fifo", helper.now);
+  helper.pass(1ms);
+  EXPECT_TRUE(helper.commands.starts_with(kOverridesOf100)) << helper.commands;
+}
+
+TEST(LinuxCncOverrides, AreSentOnceAndWhenTheyChange) {
+  FakeHelper helper;
+  helper.open();
+  helper.session.set_overrides({});
+  helper.pass(1ms);
+  EXPECT_EQ(helper.commands, "");
+  helper.session.set_overrides({.feed_override = 0.5});
+  helper.pass(1ms);
+  EXPECT_NE(helper.commands.find("\"feed\":0.5000"), std::string::npos);
+  helper.commands.clear();
+  helper.session.set_overrides({});
+  helper.pass(1ms);
+  EXPECT_NE(helper.commands.find("\"feed\":1.0000"), std::string::npos);
+}
+
 class LinuxCncHoming : public testing::Test {
  protected:
   void SetUp() override {

@@ -149,7 +149,7 @@ TEST(LinuxCncSession, AWorkSystemThatIsNotZeroIsAnAlarmBeforeTheFirstMove) {
   (void)helper.session.prepare(helper.now);
   helper.session.feed_opened("/fifo", helper.now);
   helper.pass(1ms);
-  helper.done(1);
+  helper.obey();
   helper.interpreter = 2;
   helper.read = 5;
   helper.has_offset = true;

@@ -14,7 +14,7 @@ TEST(LinuxCncSession, OpensAProgramWithTheModesThatAllLinesRelyOn) {
   helper.pass(1ms);
   EXPECT_EQ(helper.text,
             "%\nG21G90G94G17G40G49G80G91.1G59.3G92.2G8G97M5M9M53P1\nG61M48\nM66P0L0\n");
-  EXPECT_EQ(helper.commands, "{\"n\":1,\"do\":\"run\",\"file\":\"/fifo\"}\n");
+  EXPECT_EQ(helper.commands, kOverridesOf100 + "{\"n\":2,\"do\":\"run\",\"file\":\"/fifo\"}\n");
   EXPECT_FALSE(helper.session.may_send(10)) << "LinuxCNC does not read it yet";
 }
 
