@@ -75,7 +75,7 @@ class LineOperator {
   std::set<std::string> logged_faults_;  ///< since text came, or the line was steady last
   std::string request_;                  ///< still to be asked for; "next": always
   std::optional<SteadyTime> listen_at_;
-  SteadyTime drained_from_{};  ///< quiet counts from here on
+  SteadyTime drained_from_{};         ///< quiet counts from here on
   std::vector<feed::LineItem> held_;  ///< of the next run: the emergency stop is pressed
 };
 

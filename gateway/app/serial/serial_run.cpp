@@ -135,7 +135,9 @@ void SerialRun::look_for_beginning(SteadyTime now) {
 void SerialRun::begin(SteadyTime now) {
   if (!current_->start->head().empty())
     port_->note("sent before the program: " + current_->start->head());
-  if (current_->is_held || must_wait_for_panel()) {
+  if (current_->is_held) {
+    parts_.consent.await_confirmation(now + parts_.options.cycle_start_wait);
+  } else if (must_wait_for_panel()) {
     parts_.consent.await(now + parts_.options.cycle_start_wait);
   } else {
     begin_on_line();
