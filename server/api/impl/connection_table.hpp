@@ -22,8 +22,8 @@ class ConnectionTable {
   };
   using Id = std::uint64_t;
   enum class State {
-    Opening,    ///< has sent no whole request yet, or nothing that somebody known may send
-    Idle,       ///< of somebody known, between two requests
+    Opening,    ///< has sent no whole request yet, or nothing that a known user may send
+    Idle,       ///< of a known user, between two requests
     Busy,       ///< a request is in progress
     Streaming,  ///< receives events
   };

@@ -35,7 +35,7 @@ class HttpStop : public HttpAttack {
     return peers;
   }
   /// The server has read what was sent before.
-  void settle() { expect_health(); }
+  void wait_until_served() { expect_health(); }
 };
 
 TEST_F(HttpStop, WaitsForNoLargeBody) {
@@ -43,7 +43,7 @@ TEST_F(HttpStop, WaitsForNoLargeBody) {
   start();
   const auto some = send_each(1, slow_post("/x", 512 * 1024));
   const auto others = send_each(1, slow_post("/x", 512 * 1024, kOtherToken));
-  settle();
+  wait_until_served();
   expect_stopped();
 }
 
@@ -52,7 +52,7 @@ TEST_F(HttpStop, IsNotKeptOutByBodiesOfStrangers) {
   options_.limits.per_address = 8;
   start();
   auto strangers = send_each(8, slow_post("/session", 900, ""));
-  settle();
+  wait_until_served();
   for (int i = 0; i < 20; ++i) {
     expect_served();
     expect_stopped();
@@ -73,7 +73,7 @@ TEST_F(HttpStop, AStrangerWhoWasAnsweredGoesBeforeWhoHasAToken) {
     one.read_until("fine\n");
   }
   const auto more = send_each(50, slow_post("/session", 900, ""));
-  settle();
+  wait_until_served();
   known.send(post("/stop", kHold));
   EXPECT_NE(known.read_until("served").find("200 OK"), std::string::npos);
 }
@@ -95,7 +95,7 @@ TEST_F(HttpStop, IsNotKeptOutByOthersThatAreSentSlowly) {
   options_.limits.per_address = 4;
   start();
   const auto peers = send_each(4, slow_post("/x", 900));
-  settle();
+  wait_until_served();
   const auto slow = send_each(100, slow_post("/stop", 900));
   expect_stopped();
   expect_health();

@@ -245,7 +245,7 @@ TEST_F(Http, FindsARunForWhoMayStopIt) {
   EXPECT_TRUE(finds("GET", "/api/v1/runs?limit=1", operates));
   EXPECT_TRUE(finds("GET", "/api/v1/runs/r1", operates));
   EXPECT_FALSE(finds("GET", "/api/v1/runs/r1", viewer));
-  EXPECT_FALSE(finds("GET", "/api/v1/runs/r1", "nobody"));
+  EXPECT_FALSE(finds("GET", "/api/v1/runs/r1", "stranger"));
   EXPECT_FALSE(finds("POST", "/api/v1/runs", operates));
   EXPECT_FALSE(finds("GET", "/api/v1/programs", operates));
 }

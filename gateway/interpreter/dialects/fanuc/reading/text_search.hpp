@@ -50,7 +50,7 @@ class TextSearch {
   /// Numbers of the blocks of a contour.
   struct Contour {
     std::uint32_t first = 0, last = 0;
-    bool is_left_at_its_end = false;  ///< the program goes on there when the contour comes later
+    bool is_left_at_its_end = false;  ///< the program continues there when the contour comes later
     friend bool operator==(const Contour&, const Contour&) = default;
   };
   /// Whether these blocks of the program around `from` are one contour: Found, or Missing with the

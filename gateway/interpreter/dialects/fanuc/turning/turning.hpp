@@ -32,7 +32,7 @@ bool execute_turning_cycle(Run& run);
 bool follow_contour(Run& run);
 /// Whether the block in hand may be within a contour. False: an alarm.
 bool check_contour_block(Run& run);
-/// On the way from the end of the recorded contour back to where its cycle began: the axis that
+/// From the end of the recorded contour back to where its cycle began: the axis that
 /// leads off the work, and goes first where the straight path may lead through a shoulder. nullopt:
 /// it does not, or no axis is known to.
 std::optional<Axis> leaving_axis(const ModalState& state, const Position& start);
