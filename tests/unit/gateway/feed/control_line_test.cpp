@@ -62,7 +62,7 @@ TEST(ControlLine, HoldsTheHostWhileItsMemoryIsFull) {
   const std::string text = program(3000);
   host.send(text);
   Delivered delivered;
-  ASSERT_TRUE(eventually([&] { return host.is_stopped(); }, 5s));
+  ASSERT_TRUE(eventually([&] { return host.is_stopped(); }, 20s));
   delivered.take(*control);
   EXPECT_GE(delivered.text.size(), 1024U);
   EXPECT_LT(delivered.text.size(), 1024U + 256U) << "the host did not stop";

@@ -48,7 +48,9 @@ std::string actions_of(const interpreter::GoldenCase& golden, const interpreter:
     const bool is_move =
         line.starts_with("{\"event\":\"rapid\"") || line.starts_with("{\"event\":\"feed\"") ||
         line.starts_with("{\"event\":\"arc\"") || line.starts_with("{\"event\":\"thread\"");
-    if (is_move) kept += line;
+    // Where its text is does not make a move another one.
+    if (is_move)
+      kept.append(line.substr(0, line.find("\"line\""))).append(line.substr(line.find("\"to\"")));
     at = end;
   }
   return kept;
