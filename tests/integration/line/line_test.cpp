@@ -73,11 +73,13 @@ TEST(Line, DripFeedsAProgramLargerThanTheControlsMemory) {
   const test_support::TemporaryFolder folder;
   const auto setup = folder.path() / "setup.toml";
   std::ofstream(setup) << "units = \"in\"\nanswers = [\"1\"]\n";
+  auto settings = kSettings;
+  settings[0] = "baud=38400";  // a busy computer has 67 ms to let the host read XOFF
   LineGateway gateway({.address = cable.control(),
-                       .settings = kSettings,
+                       .settings = settings,
                        .speed = "100x",
                        .arguments = {"--line-buffer", "1024", "--setup", setup}});
-  HostLine host(cable.host(), host_settings());
+  HostLine host(cable.host(), host_settings(settings));
   // At the question the control waits for the end of a long move, and its memory fills up.
   const std::string text =
       "G20 G98\nG0 X3. Z0\nG1 Z-5. F1.\nINPUT (GO ON) P1\n" + without_name(contour(20'000));
