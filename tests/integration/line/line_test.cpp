@@ -74,7 +74,7 @@ TEST(Line, DripFeedsAProgramLargerThanTheControlsMemory) {
   const auto setup = folder.path() / "setup.toml";
   std::ofstream(setup) << "units = \"in\"\nanswers = [\"1\"]\n";
   auto settings = kSettings;
-  settings[0] = "baud=38400";  // a busy computer has 67 ms to let the host read XOFF
+  settings[0] = "baud=9600";  // a busy computer has a quarter of a second to let the host read XOFF
   LineGateway gateway({.address = cable.control(),
                        .settings = settings,
                        .speed = "100x",
@@ -82,7 +82,7 @@ TEST(Line, DripFeedsAProgramLargerThanTheControlsMemory) {
   HostLine host(cable.host(), host_settings(settings));
   // At the question the control waits for the end of a long move, and its memory fills up.
   const std::string text =
-      "G20 G98\nG0 X3. Z0\nG1 Z-5. F1.\nINPUT (GO ON) P1\n" + without_name(contour(20'000));
+      "G20 G98\nG0 X3. Z0\nG1 Z-5. F1.\nINPUT (GO ON) P1\n" + without_name(contour(8'000));
   host.send(text);
   EXPECT_TRUE(eventually([&] { return host.is_stopped(); })) << "the memory was never full";
   EXPECT_LT(host.sent(), 4096U);
@@ -144,15 +144,19 @@ TEST(Line, StopsAfterTheLastCompleteBlockWhenTheCableIsPulled) {
 /// A host without flow control: the rest of its text is no program that begins in the middle.
 TEST(Line, BeginsNoRunWithTheRestOfATextThatBrokeOff) {
   PtyCable cable;
+  const test_support::TemporaryFolder folder;
+  const auto setup = folder.path() / "setup.toml";
+  std::ofstream(setup) << "units = \"in\"\nanswers = [\"1\"]\n";
   LineGateway gateway({.address = cable.control(),
                        .settings = kSettings,
                        .speed = "100x",
-                       .arguments = {"--line-buffer", "1024"}});
+                       .arguments = {"--line-buffer", "1024", "--setup", setup}});
   auto changes = kSettings;
   changes.emplace_back("flow=none");
   std::optional<HostLine> host(std::in_place, cable.host(), host_settings(changes));
-  // Fifteen seconds of motion: until then the memory of the control is full, and over.
-  host->send("G20 G98\nG0 X3. Z0\nG1 Z-5. F.2\n" + without_name(contour(600'000)));
+  // At the question the control waits for the end of the move, and its memory is full, and over.
+  host->send("G20 G98\nG0 X3. Z0\nG1 Z-5. F.6\nINPUT (GO ON) P1\n" +
+             without_name(contour(600'000)));
   ASSERT_TRUE(gateway.wait_ended(1, 60s));
   std::this_thread::sleep_for(3s);
   EXPECT_FALSE(host->is_idle()) << "the host is in the middle of its text";

@@ -59,7 +59,7 @@ TEST(ControlLine, HoldsTheHostWhileItsMemoryIsFull) {
   const auto control = start(cable, 1024, settings);
   HostLine host(cable.host(), settings);
   control->expect();
-  const std::string text = program(3000);
+  const std::string text = program(2000);
   host.send(text);
   Delivered delivered;
   ASSERT_TRUE(eventually([&] { return host.is_stopped(); }, 20s));
