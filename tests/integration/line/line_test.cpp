@@ -87,7 +87,7 @@ TEST(Line, DripFeedsAProgramLargerThanTheControlsMemory) {
   EXPECT_TRUE(eventually([&] { return host.is_stopped(); })) << "the memory was never full";
   EXPECT_LT(host.sent(), 4096U);
   ASSERT_TRUE(gateway.wait_ended(1, 120s));
-  EXPECT_TRUE(host.is_idle());
+  EXPECT_TRUE(eventually([&] { return host.is_idle(); }));
   const auto endings = gateway.endings();
   ASSERT_EQ(endings.size(), 1U);
   EXPECT_EQ(endings[0].outcome, dds::RunOutcome::Completed) << endings[0].reason;

@@ -56,6 +56,7 @@ TEST(ControlLine, HoldsTheHostWhileItsMemoryIsFull) {
   PtyCable cable;
   wire::LineSettings settings = fast();
   settings.baud = 4800;  // a busy computer has half a second to let the host read XOFF
+  settings.idle_end = 1s;
   const auto control = start(cable, 1024, settings);
   HostLine host(cable.host(), settings);
   control->expect();
