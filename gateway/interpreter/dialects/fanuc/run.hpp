@@ -116,11 +116,11 @@ struct Run : BlockRun {
     const Length per = Length::mm(state.feed[state.is_per_revolution()]);
     return state.is_per_revolution() ? Feed::per_revolution(per) : Feed::per_minute(per);
   }
-  /// G09 of the block, G61 in force: a cutting feed comes to rest at its end.
   /// An alarm at the G code of the block.
   bool fail_at_g(const DiagnosticRow& row, std::string_view why) {
     return fail(row, block.parts.g_column, why);
   }
+  /// G09 of the block, G61 in force: a cutting feed comes to rest at its end.
   bool rests_at_end() const { return block.parts.one_shot == 9 || state.g[kPathGroup] == 61; }
   /// Millimeters to program units, for macro variables.
   double in_units(Axis axis, double raw) const {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -67,14 +68,22 @@ bool is_monotonic(std::span<const ContourMove> moves, double start, double Conto
   return !(rises && falls);
 }
 
-/// The tool returns to where G70 began.
-bool leave_finished(Run& run, const Position& start) {
-  if (const auto first = leaving_axis(run.state, start)) {
-    Position off = run.state.position;
-    off.set_raw(*first, start.raw(*first));
-    if (!rapid_to(run, off)) return false;
+/// The axis that leads off the work, where the straight path back may lead through a shoulder.
+/// nullopt: it does not, or no axis is known to.
+std::optional<Axis> leaving_axis(const ModalState& state) {
+  const ContourCycle& cycle = state.contour;
+  std::span<const ContourMove> moves = cycle.moves;
+  const Position& start = state.modes_before.position;
+  ContourMove from{.x = start.raw(Axis::X), .z = start.raw(Axis::Z)};
+  if (!cycle.is_type_two && !moves.empty()) {  // the block of P leads to the contour
+    from = moves.front();
+    moves = moves.subspan(1);
   }
-  return rapid_to(run, start);
+  const bool is_turned = is_monotonic(moves, from.z, &ContourMove::z);
+  const bool is_faced = is_monotonic(moves, from.x, &ContourMove::x);
+  const bool is_open = !cycle.is_type_two && is_turned && is_faced;
+  if (is_open || (!is_turned && !is_faced)) return std::nullopt;
+  return is_faced && (state.turning.has_faced || !is_turned) ? Axis::Z : Axis::X;
 }
 
 bool end_contour(Run& run) {
@@ -92,7 +101,7 @@ bool end_contour(Run& run) {
     run.blender.place(state.position);
   }
   cycle.code = code;
-  const bool is_done = is_finishing ? leave_finished(run, start) : make_passes(run);
+  const bool is_done = is_finishing ? leave_contour(run, start) : make_passes(run);
   cycle.code = 0;
   cycle.moves.clear();
   run.lead_stages();
@@ -111,19 +120,13 @@ bool changes(const Run& run, Group group) {
 
 }  // namespace
 
-std::optional<Axis> leaving_axis(const ModalState& state, const Position& start) {
-  const ContourCycle& cycle = state.contour;
-  std::span<const ContourMove> moves = cycle.moves;
-  ContourMove from{.x = start.raw(Axis::X), .z = start.raw(Axis::Z)};
-  if (!cycle.is_type_two && !moves.empty()) {  // the block of P leads to the contour
-    from = moves.front();
-    moves = moves.subspan(1);
+bool leave_contour(Run& run, const Position& to) {
+  if (const auto first = leaving_axis(run.state)) {
+    Position off = run.state.position;
+    off.set_raw(*first, to.raw(*first));
+    if (!rapid_to(run, off)) return false;
   }
-  const bool is_turned = is_monotonic(moves, from.z, &ContourMove::z);
-  const bool is_faced = is_monotonic(moves, from.x, &ContourMove::x);
-  const bool is_open = !cycle.is_type_two && is_turned && is_faced;
-  if (is_open || (!is_turned && !is_faced)) return std::nullopt;
-  return is_faced && (state.turning.has_faced || !is_turned) ? Axis::Z : Axis::X;
+  return rapid_to(run, to);
 }
 
 namespace {

@@ -43,21 +43,13 @@ class ParallelPasses : public Passes {
       const double x = cycle_.allowance_x + data.relief_x * part;
       const double z = cycle_.allowance_z + data.relief_z * part;
       const Position& at = run_.state.modes_before.position;
-      if (!return_to(place_of(at.raw(Axis::X) + x, at.raw(Axis::Z) + z)) || !follow(0, x, z))
-        return false;
+      const Place begin = place_of(at.raw(Axis::X) + x, at.raw(Axis::Z) + z);
+      if (!leave_contour(run_, on_machine(begin)) || !follow(0, x, z)) return false;
     }
-    return return_to(start_);
+    return leave_contour(run_, on_machine(start_));
   }
 
  private:
-  bool return_to(Place to) {
-    Place off = here();
-    const auto first = leaving_axis(run_.state, run_.state.modes_before.position);
-    if (first == Axis::X) off.depth = to.depth;
-    if (first == Axis::Z) off.along = to.along;
-    return rapid(off) && rapid(to);
-  }
-
   /// The first move goes down to the contour, along the depth alone; the rest is monotonic in both
   /// axes, and not beyond the start, to which the last cut returns.
   bool check_contour() {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 /// What a lathe (T series) has of its own: words in increments, turrets, threads and cycles. The
@@ -32,10 +30,10 @@ bool execute_turning_cycle(Run& run);
 bool follow_contour(Run& run);
 /// Whether the block in hand may be within a contour. False: an alarm.
 bool check_contour_block(Run& run);
-/// From the end of the recorded contour back to where its cycle began: the axis that
-/// leads off the work, and goes first where the straight path may lead through a shoulder. nullopt:
-/// it does not, or no axis is known to.
-std::optional<Axis> leaving_axis(const ModalState& state, const Position& start);
+/// Rapidly from the end of the recorded contour to `to`, where a pass begins or the cycle did:
+/// first along the axis that leads off the work, where the straight path may lead through a
+/// shoulder. False: an alarm.
+bool leave_contour(Run& run, const Position& to);
 /// Rough passes along what has been recorded; roughing.cpp, pocket_roughing.cpp.
 bool make_passes(Run& run);
 
