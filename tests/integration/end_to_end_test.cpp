@@ -145,8 +145,8 @@ TEST_F(EndToEnd, BothEndOrderlyOnSigterm) {
   start();
   system->gateway().signal(SIGTERM);
   system->server().signal(SIGTERM);
-  EXPECT_EQ(system->gateway().wait(std::chrono::seconds(10)), 0);
-  EXPECT_EQ(system->server().wait(std::chrono::seconds(10)), 0);
+  EXPECT_EQ(system->gateway().wait(), 0);
+  EXPECT_EQ(system->server().wait(), 0);
 }
 
 }  // namespace

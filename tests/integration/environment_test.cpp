@@ -89,7 +89,7 @@ class Database : public testing::Test {
   }
   void stop_server() {
     system.server().signal(SIGTERM);
-    ASSERT_EQ(system.server().wait(std::chrono::seconds(10)), 0);
+    ASSERT_EQ(system.server().wait(), 0);
   }
   std::filesystem::path file() const { return system.server_state() / "dripline.sqlite"; }
   test_support::Finished start(const std::string& option = "") const {
@@ -97,7 +97,7 @@ class Database : public testing::Test {
         program_path("dncd"), "--state",      system.server_state(),          "--http",
         "127.0.0.1:0",        "--dds-domain", std::to_string(system.domain())};
     if (!option.empty()) command.push_back(option);
-    return run_to_end(command, system.folder() / "refused.out", std::chrono::seconds(20));
+    return run_to_end(command, system.folder() / "refused.out");
   }
   void change(const std::string& sql) const {
     const auto done = run_to_end({"/usr/bin/sqlite3", file(), sql}, system.folder() / "sqlite.out");
@@ -203,8 +203,7 @@ TEST_F(Database, WhoseRevisionNamesAnotherProgramsContentRunsNothingOfIt) {
 TEST(OpenFiles, TooFewAreRefusedWithAMessage) {
   const test_support::TemporaryFolder folder;
   const auto limited = [&](const std::string& command) {
-    return run_to_end({"/bin/sh", "-c", "ulimit -n 24; exec " + command}, folder.path() / "out",
-                      std::chrono::seconds(20));
+    return run_to_end({"/bin/sh", "-c", "ulimit -n 24; exec " + command}, folder.path() / "out");
   };
   for (const std::string& command :
        {program_path("dncd") + " --http 127.0.0.1:0 --state " + (folder.path() / "s").string(),
@@ -225,7 +224,7 @@ TEST(EmptySetupFile, IsOneOfDefaults) {
   std::ofstream(state) << "a file";
   const auto refused = run_to_end({program_path("dncgw"), "--machine", "m", "--control", "fanuc",
                                    "--setup", setup, "--state", state},
-                                  folder.path() / "out", std::chrono::seconds(20));
+                                  folder.path() / "out");
   EXPECT_EQ(refused.status, 1) << refused.output;
   EXPECT_EQ(refused.output.find("cannot read"), std::string::npos) << refused.output;
   EXPECT_NE(refused.output.find("no_folder"), std::string::npos) << refused.output;
@@ -240,7 +239,7 @@ TEST(OpenNetwork, NeedsToBeConfirmed) {
                                  "--state", folder.path() / "g"}}) {
     std::vector<std::string> open = command;
     open.insert(open.end(), {"--dds-interface", "eth0"});
-    const auto refused = run_to_end(open, folder.path() / "out", std::chrono::seconds(20));
+    const auto refused = run_to_end(open, folder.path() / "out");
     EXPECT_EQ(refused.status, 2) << refused.output;
     EXPECT_NE(refused.output.find("dds-open-network"), std::string::npos) << refused.output;
   }
@@ -279,7 +278,7 @@ TEST(ServiceUnit, IsReadyStaysAliveAndAnnouncesItsEnd) {
   for (auto [child, manager] : {std::pair{&system.gateway(), &gateway_manager},
                                 std::pair{&system.server(), &server_manager}}) {
     child->signal(SIGTERM);
-    EXPECT_EQ(child->wait(std::chrono::seconds(20)), 0);
+    EXPECT_EQ(child->wait(), 0);
     std::optional<std::string> last;
     while (auto message = manager->receive(std::chrono::milliseconds(0))) last = message;
     EXPECT_EQ(last, "STOPPING=1");

@@ -36,7 +36,7 @@ class Identity : public testing::Test {
   }
   void restart_server() {
     system.server().signal(15);
-    EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+    EXPECT_EQ(system.server().wait(), 0);
     system.start_server();
   }
   nlohmann::json whoami(const std::string& home) {
@@ -62,7 +62,7 @@ TEST_F(Identity, TheAuditTrailIsVerifiedHereAndElsewhere) {
   EXPECT_NE(good.output.find("each as it was written"), std::string::npos) << good.output;
 
   system.server().signal(15);
-  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+  EXPECT_EQ(system.server().wait(), 0);
   const auto changed = test_support::run_to_end(
       {"/usr/bin/sqlite3", (system.server_state() / "dripline.sqlite").string(),
        "UPDATE audit SET subject = 'carl' WHERE subject = 'bert'"},

@@ -47,7 +47,7 @@ class Migration : public testing::Test {
   }
   void stop() {
     system_->server().signal(SIGTERM);
-    ASSERT_TRUE(system_->server().wait(std::chrono::seconds(20)));
+    ASSERT_TRUE(system_->server().wait());
   }
   std::string run_whole() {
     const std::string id = system_->start_run("O0300");

@@ -36,7 +36,7 @@ class Broker {
   }
   void end() {
     process_->signal(SIGTERM);
-    ASSERT_TRUE(process_->wait(std::chrono::seconds(20)));
+    ASSERT_TRUE(process_->wait());
   }
   void freeze() { process_->signal(SIGSTOP); }
   void thaw() { process_->signal(SIGCONT); }

@@ -93,7 +93,7 @@ class Mqtt : public testing::Test {
   void expect_all(Subscriber& subscriber) {
     ASSERT_TRUE(is_published()) << state();
     system_.server().signal(SIGTERM);
-    EXPECT_EQ(system_.server().wait(seconds(20)), 0);
+    EXPECT_EQ(system_.server().wait(), 0);
     const auto records = stored();
     const auto distinct = [&] {
       std::set<std::string> ids;
@@ -206,7 +206,7 @@ TEST_F(Mqtt, StatesAreRetainedAndTheEndOfTheServerIsToldByTheBroker) {
   const auto metrics = system_.rest().get("/api/v1/metrics").body;
   EXPECT_NE(metrics.find("dripline_mqtt_connected 1\n"), std::string::npos);
   system_.server().signal(SIGTERM);
-  EXPECT_EQ(system_.server().wait(seconds(20)), 0);
+  EXPECT_EQ(system_.server().wait(), 0);
   EXPECT_TRUE(is_online(false));
 }
 
@@ -302,14 +302,14 @@ TEST_F(Mqtt, MachinesAreDevicesOfASparkplugNode) {
   system_.start_server();
   EXPECT_TRUE(gets("NBIRTH/dnc", 3));
   system_.server().signal(SIGTERM);
-  EXPECT_EQ(system_.server().wait(seconds(20)), 0);
+  EXPECT_EQ(system_.server().wait(), 0);
   EXPECT_TRUE(gets("NDEATH/dnc", dead + 2));
 }
 
 TEST_F(Mqtt, IsRefusedBeyondThisComputerWithoutTls) {
   configure("broker = \"mqtt://broker.example\"\n");
   system_.launch_server();
-  EXPECT_EQ(system_.server().wait(seconds(20)), 2);
+  EXPECT_EQ(system_.server().wait(), 2);
   EXPECT_NE(system_.server().output().find("open_network"), std::string::npos)
       << system_.server().output();
 }

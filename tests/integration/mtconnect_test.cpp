@@ -199,7 +199,7 @@ TEST_F(MtConnect, IsNotOpenToANetworkUnasked) {
   System system(
       {.speed = "max", .server_arguments = {"--mtconnect", "0.0.0.0:0"}, .gateway_arguments = {}});
   system.launch_server();
-  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 2);
+  EXPECT_EQ(system.server().wait(), 2);
   EXPECT_NE(system.server().output().find("mtconnect-open-network"), std::string::npos);
 }
 

@@ -120,7 +120,7 @@ TEST_F(Postgresql, AServerThatLostItsPlaceEndsAndSaysWhy) {
   auto other = storage::postgresql::Database::connect({.url = database_->url()});
   ASSERT_TRUE(other->execute(
       "UPDATE store_holder SET holder = 'srv-2', until = now() + interval '1 hour'"));
-  const auto status = system_->server().wait(std::chrono::seconds(20));
+  const auto status = system_->server().wait();
   ASSERT_TRUE(status) << "it ends: " << system_->server().output();
   EXPECT_EQ(*status, 1);
   EXPECT_NE(system_->server().output().find("was taken over by another server"), std::string::npos)

@@ -57,7 +57,7 @@ TEST_F(Release, TakesTwoPeopleAndOutlivesARestartOfTheServer) {
   refused(as("bert", "run start lathe-1 O1"), "is approved");
   good(as("bert", "program release O1 1 --comment first"));
   system.server().signal(15);
-  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+  EXPECT_EQ(system.server().wait(), 0);
   system.start_server();
   system.wait_connected();
   const auto started = as("anna", "run start lathe-1 O1 --json");
@@ -120,10 +120,10 @@ TEST_F(Release, PinsWhatAProgramCallsSoThatANewerSubprogramDoesNotRun) {
 
 TEST_F(Release, APolicyThatIsNotUnderstoodKeepsTheServerFromStarting) {
   system.server().signal(15);
-  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+  EXPECT_EQ(system.server().wait(), 0);
   std::ofstream(system.folder() / "policy.toml") << "runs = \"realease\"\n";
   system.launch_server();
-  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 2);
+  EXPECT_EQ(system.server().wait(), 2);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ class SecuritySystem : public testing::Test {
   }
   void stop_server() {
     system.server().signal(SIGTERM);
-    EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+    EXPECT_EQ(system.server().wait(), 0);
   }
   void expect_run_completes() {
     const auto run = system.wait_ended(system.start_run("O0300"));
@@ -132,7 +132,7 @@ TEST_F(SecuritySystem, ARenewedCertificateIsTakenAtTheNextStart) {
   expect_run_completes();
   pki("renew lathe-1");
   system.gateway().signal(SIGTERM);
-  EXPECT_EQ(system.gateway().wait(std::chrono::seconds(20)), 0);
+  EXPECT_EQ(system.gateway().wait(), 0);
   system.start_gateway();
   ASSERT_TRUE(eventually([&] { return is_connected(); }));
   expect_run_completes();
@@ -246,7 +246,7 @@ TEST_F(SecuritySystem, AMachineWhoseCertificateEndsIsLostUntilItIsRenewed) {
            std::string::npos;
   }));
   system.gateway().signal(SIGTERM);
-  EXPECT_TRUE(system.gateway().wait(std::chrono::seconds(20)));
+  EXPECT_TRUE(system.gateway().wait());
   pki("renew lathe-1");
   system.start_gateway();
   ASSERT_TRUE(eventually([&] { return is_connected(); }));
@@ -261,7 +261,7 @@ TEST_F(SecuritySystem, AServerWhoseCertificateEndsLivesAndIsRenewed) {
   EXPECT_EQ(system.rest().get("/api/v1/health").json().value("status", ""), "degraded");
   pki("renew --server");
   system.server().signal(SIGTERM);
-  EXPECT_EQ(system.server().wait(std::chrono::seconds(20)), 0);
+  EXPECT_EQ(system.server().wait(), 0);
   system.start_server();
   system.wait_connected();
 }

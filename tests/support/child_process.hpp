@@ -9,6 +9,10 @@
 
 namespace dripline::test_support {
 
+/// How long a test waits for what comes, before it fails: far longer than it takes, because many
+/// tests share a computer. What must come within a time says its own limit.
+inline constexpr std::chrono::seconds kPatience{60};
+
 /// A real program under test. Its output goes to a file; it is killed when the object ends. Not
 /// thread-safe.
 class ChildProcess {
@@ -24,7 +28,7 @@ class ChildProcess {
   /// Kills it with SIGKILL and waits for its end.
   void kill();
   /// Its exit status (128 + signal when killed), or nullopt when it has not ended in time.
-  std::optional<int> wait(std::chrono::milliseconds limit);
+  std::optional<int> wait(std::chrono::milliseconds limit = kPatience);
   bool is_running();
   std::string output() const;
   /// Highest resident memory so far, in bytes (VmHWM).
@@ -43,11 +47,11 @@ struct Finished {
   std::string output;
 };
 Finished run_to_end(const std::vector<std::string>& command, const std::filesystem::path& output,
-                    std::chrono::milliseconds limit = std::chrono::seconds(60));
+                    std::chrono::milliseconds limit = kPatience);
 
 /// Polls every few milliseconds until `holds()`; false when the limit passes first.
 template <class Predicate>
-bool eventually(Predicate holds, std::chrono::milliseconds limit = std::chrono::seconds(20));
+bool eventually(Predicate holds, std::chrono::milliseconds limit = kPatience);
 void wait_a_little();
 
 template <class Predicate>

@@ -25,10 +25,10 @@ struct WrittenMessages {
       on_command;  ///< plays the gateway, on the writer's thread
   std::function<void(const dds::LineRequest&)> on_line_request = {};  ///< likewise
 
-  /// Waits until `holds` is true, at most some seconds. The lock is held while it is asked.
+  /// Waits until `holds` is true, at most a minute. The lock is held while it is asked.
   bool wait(const std::function<bool()>& holds) {
     std::unique_lock lock(mutex);
-    return changed.wait_for(lock, std::chrono::seconds(10), holds);
+    return changed.wait_for(lock, std::chrono::seconds(60), holds);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "protocol/base/descriptor.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::test_support {
@@ -16,7 +17,7 @@ class ServiceSocket {
 
   std::string path() const { return folder_.path() / "notify"; }
   /// The next message; nullopt when none comes in time.
-  std::optional<std::string> receive(std::chrono::milliseconds limit = std::chrono::seconds(20));
+  std::optional<std::string> receive(std::chrono::milliseconds limit = kPatience);
 
  private:
   TemporaryFolder folder_;

@@ -79,7 +79,7 @@ bool LineGateway::wait_logged(std::string_view text, std::size_t times) const {
 const std::vector<dds::Record>& LineGateway::records() {
   if (records_) return *records_;
   gateway_->signal(SIGTERM);
-  EXPECT_EQ(gateway_->wait(std::chrono::seconds(10)), 0) << log();
+  EXPECT_EQ(gateway_->wait(), 0) << log();
   auto outbox = report::Outbox::open(folder_.path() / "gw" / "outbox.sqlite");
   EXPECT_TRUE(outbox);
   records_ = *outbox->read("lathe-1", 0, 100'000);

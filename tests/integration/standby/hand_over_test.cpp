@@ -25,7 +25,7 @@ TEST_F(HandOver, AnOrderlyEndHandsOverAtOnceWithEverythingInTheDatabase) {
   EXPECT_NE(shop_->log(0).find("which no server has had"), std::string::npos) << shop_->log(0);
   EXPECT_NE(shop_->log(1).find(": it has given the library back"), std::string::npos)
       << shop_->log(1);
-  EXPECT_EQ(shop_->server(0).wait(seconds(10)), 0);
+  EXPECT_EQ(shop_->server(0).wait(), 0);
   const test_support::RestClient robot(shop_->rest(1).url(), secret);
   EXPECT_EQ(robot.get("/api/v1/server").status, 200);
   expect_whole_trail(1);

@@ -63,7 +63,7 @@ TEST_F(SharedLine, IsFedByNobodyWhoMayHaveLostTheLibrary) {
   EXPECT_EQ(run(1, id_).value("state", ""), "interrupted");
   EXPECT_NE(port(0).dump().find("nothing is sent"), std::string::npos) << port(0).dump();
   cables_[0]->plug();
-  EXPECT_EQ(shop_->server(0).wait(seconds(30)), 1) << shop_->log(0);
+  EXPECT_EQ(shop_->server(0).wait(), 1) << shop_->log(0);
   EXPECT_TRUE(device_.stays_silent(seconds(1)));
 }
 
@@ -75,7 +75,7 @@ TEST_F(SharedLine, IsSentNothingByAServerThatWakesUp) {
   ASSERT_TRUE(device_.stays_silent(seconds(1)));
   const std::size_t before = device_.received();
   shop_->thaw(0);
-  EXPECT_EQ(shop_->server(0).wait(seconds(30)), 1) << shop_->log(0);
+  EXPECT_EQ(shop_->server(0).wait(), 1) << shop_->log(0);
   EXPECT_EQ(device_.received(), before);
 }
 

@@ -34,11 +34,11 @@ class PlayedServer {
     if (opened) endpoint_ = *std::move(opened);
   }
 
-  bool wait_connected(milliseconds limit = seconds(15)) {
+  bool wait_connected(milliseconds limit = test_support::kPatience) {
     return wait([&] { return announce_ && status_; }, limit);
   }
   bool wait_lost() {
-    return wait([&] { return !announce_; }, seconds(15));
+    return wait([&] { return !announce_; }, test_support::kPatience);
   }
   /// Sets the feed override at the machine; nullopt: it was not answered in time.
   std::optional<bool> command(const std::string& id, double override, milliseconds limit) {
@@ -62,7 +62,8 @@ class PlayedServer {
     return std::nullopt;
   }
   bool wait_override(double override) {
-    return wait([&] { return status_ && status_->feed_override == override; }, seconds(10));
+    return wait([&] { return status_ && status_->feed_override == override; },
+                test_support::kPatience);
   }
 
  private:

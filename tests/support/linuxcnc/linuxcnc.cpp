@@ -100,7 +100,7 @@ void LinuxCnc::stop() {
   if (!process_) return;
   const std::string pid = read_file(folder_.path() / "display.pid");
   if (!pid.empty()) ::kill(std::atoi(pid.c_str()), SIGTERM);
-  (void)process_->wait(std::chrono::seconds(15));
+  (void)process_->wait();
   process_.reset();
   fs::remove(folder_.path() / "display.pid");
 }

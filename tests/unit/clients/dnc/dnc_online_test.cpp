@@ -9,7 +9,6 @@
 namespace dripline {
 namespace {
 
-using namespace std::chrono_literals;
 using nlohmann::json;
 using test_support::FakeServer;
 using test_support::machine_json;
@@ -147,7 +146,7 @@ TEST_F(DncOnline, FollowsARunToItsEnd) {
       [&] { return follow.output().find("O0200 on lathe-1") != std::string::npos; }));
   server.set_run(run_json("aa11", "completed"));
   server.publish("run", run_json("aa11", "completed"));
-  EXPECT_EQ(follow.wait(10s), 0);
+  EXPECT_EQ(follow.wait(), 0);
   EXPECT_NE(follow.output().find("Run aa11 of O0200 on lathe-1 completed: 42 blocks"),
             std::string::npos)
       << follow.output();
@@ -168,7 +167,7 @@ TEST_F(DncOnline, LeavesTheRunAloneOnInterrupt) {
   ASSERT_TRUE(test_support::eventually(
       [&] { return watch.output().find("O0200 on lathe-1") != std::string::npos; }));
   watch.signal(SIGINT);
-  EXPECT_EQ(watch.wait(10s), 130);
+  EXPECT_EQ(watch.wait(), 130);
   EXPECT_NE(watch.output().find("run aa11 continues"), std::string::npos) << watch.output();
   EXPECT_EQ(commands, 0);
 }
@@ -185,7 +184,7 @@ TEST_F(DncOnline, WatchesMachinesLineByLineInAPipe) {
   EXPECT_TRUE(test_support::eventually(
       [&] { return watch.output().find("lathe-1  not connected\n") != std::string::npos; }));
   watch.signal(SIGINT);
-  EXPECT_EQ(watch.wait(10s), 130);
+  EXPECT_EQ(watch.wait(), 130);
 }
 
 }  // namespace

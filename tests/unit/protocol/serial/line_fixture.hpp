@@ -26,7 +26,7 @@ struct LineLog {
   std::string to_send;  ///< offered whenever there is room
 
   template <class Condition>
-  bool wait(Condition condition, std::chrono::milliseconds limit = std::chrono::seconds(5)) {
+  bool wait(Condition condition, std::chrono::milliseconds limit = std::chrono::seconds(60)) {
     std::unique_lock lock(mutex);
     return changed.wait_for(lock, limit, condition);
   }

@@ -136,7 +136,7 @@ class MachineServiceTest : public ServerTest {
   template <class Thing, class Matches>
   bool wait_notified(const std::vector<Thing>& things, const Matches& matches) {
     std::unique_lock lock(notified_mutex_);
-    return notified_.wait_for(lock, std::chrono::seconds(10),
+    return notified_.wait_for(lock, std::chrono::seconds(60),
                               [&] { return std::any_of(things.begin(), things.end(), matches); });
   }
 

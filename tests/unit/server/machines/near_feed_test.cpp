@@ -30,7 +30,7 @@ class Away {
   /// So many callers hang.
   bool wait_hanging(int callers) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(10), [&] { return waiting_ >= callers; });
+    return changed_.wait_for(lock, std::chrono::seconds(60), [&] { return waiting_ >= callers; });
   }
 
  private:

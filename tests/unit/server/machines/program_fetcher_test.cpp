@@ -36,7 +36,7 @@ struct FetchedPrograms final : test_support::ProgramStoreDecorator {
   }
   bool wait(const std::function<bool()>& holds) {
     std::unique_lock lock(mutex);
-    return changed.wait_for(lock, std::chrono::seconds(10), holds);
+    return changed.wait_for(lock, std::chrono::seconds(60), holds);
   }
   bool wait_fetched(std::size_t count) {
     return wait([&] { return fetched.size() >= count; });

@@ -15,7 +15,7 @@ TEST(WorkerPool, TriesATaskThatThrowsAgain) {
     done.set_value(tries);
   });
   auto result = done.get_future();
-  ASSERT_EQ(result.wait_for(std::chrono::seconds(10)), std::future_status::ready);
+  ASSERT_EQ(result.wait_for(std::chrono::seconds(60)), std::future_status::ready);
   EXPECT_EQ(result.get(), 2);
 }
 
