@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <CLI/CLI.hpp>
 #include <csignal>
 
@@ -92,6 +94,58 @@ int report_parse_end(const CLI::App& app, const CLI::ParseError& end) {
   return kExitUsage;
 }
 
+/// Who adds which first words.
+struct Verbs {
+  void (*add)(Command dnc, Context& context);
+  std::array<std::string_view, 3> names;
+};
+constexpr Verbs kVerbs[]{
+    {add_program_commands, {"program"}},
+    {add_import_commands, {"import"}},
+    {add_offset_commands, {"offset"}},
+    {add_folder_commands, {"folder"}},
+    {add_webhook_commands, {"webhook"}},
+    {add_job_commands, {"job"}},
+    {add_machine_commands, {"machine"}},
+    {add_run_commands, {"run"}},
+    {add_port_commands, {"port"}},
+    {add_setup_commands, {"setup"}},
+    {add_memory_commands, {"memory"}},
+    {add_report_commands, {"report"}},
+    {add_server_commands, {"server"}},
+    {add_audit_commands, {"audit"}},
+    {add_login_commands, {"login", "logout", "whoami"}},
+    {add_user_commands, {"user"}},
+    {add_token_commands, {"token"}},
+    {add_group_commands, {"group"}},
+    {add_check_command, {"check"}},
+    {add_trace_command, {"trace"}},
+    {add_diff_command, {"diff"}},
+    {add_edit_command, {"edit"}},
+    {add_forecast_command, {"forecast"}},
+    {add_touch_command, {"touch"}},
+    {add_graphics_command, {"graphics"}},
+    {add_approximate_command, {"approximate"}},
+    {add_convert_command, {"convert"}},
+    {add_conversational_commands, {"conversational"}},
+    {add_chart_command, {"chart"}},
+    {add_extract_command, {"extract"}},
+    {add_pki_commands, {"pki"}},
+    {add_completion_command, {"completion"}},
+};
+
+/// With one of the names as the first word only its verbs are added: those of all take longer than
+/// a short program's check. The completion looks at them all.
+void add_verbs(Command dnc, Context& context, std::string_view first) {
+  const auto is_of = [&](const Verbs& verbs) {
+    return first != "completion" && std::ranges::find(verbs.names, first) != verbs.names.end();
+  };
+  if (const auto* one = std::ranges::find_if(kVerbs, is_of);
+      !first.empty() && one != std::end(kVerbs))
+    return one->add(dnc, context);
+  for (const Verbs& verbs : kVerbs) verbs.add(dnc, context);
+}
+
 int run(int argc, char** argv) {
   Context context;
   CLI::App app(kAbout, "dnc");
@@ -99,38 +153,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   add_connection_options(app, context);
   const Command dnc(&app);
-  add_program_commands(dnc, context);
-  add_import_commands(dnc, context);
-  add_offset_commands(dnc, context);
-  add_folder_commands(dnc, context);
-  add_webhook_commands(dnc, context);
-  add_job_commands(dnc, context);
-  add_machine_commands(dnc, context);
-  add_run_commands(dnc, context);
-  add_port_commands(dnc, context);
-  add_setup_commands(dnc, context);
-  add_memory_commands(dnc, context);
-  add_report_commands(dnc, context);
-  add_server_commands(dnc, context);
-  add_audit_commands(dnc, context);
-  add_login_commands(dnc, context);
-  add_user_commands(dnc, context);
-  add_token_commands(dnc, context);
-  add_group_commands(dnc, context);
-  add_check_command(dnc, context);
-  add_trace_command(dnc, context);
-  add_diff_command(dnc, context);
-  add_edit_command(dnc, context);
-  add_forecast_command(dnc, context);
-  add_touch_command(dnc, context);
-  add_graphics_command(dnc, context);
-  add_approximate_command(dnc, context);
-  add_convert_command(dnc, context);
-  add_conversational_commands(dnc, context);
-  add_chart_command(dnc, context);
-  add_extract_command(dnc, context);
-  add_pki_commands(dnc, context);
-  add_completion_command(dnc, context);
+  add_verbs(dnc, context, argc > 1 ? argv[1] : "");
   app.footer(kFooter);  // after the verbs, which would inherit it
   let_options_follow(app);
   const std::vector<std::string> words(argv + std::min(argc, 3), argv + argc);
