@@ -2,7 +2,7 @@
 #include "gateway/machine/grbl/codes.hpp"
 #include "protocol/base/decimal.hpp"
 
-/// The part of the session that moves one axis without a program, and stops homing.
+/// The part of the session that moves one axis without a program.
 namespace dripline::machine::grbl {
 
 using std::chrono::milliseconds;
@@ -71,10 +71,6 @@ void BoardSession::watch_jog(const StatusReport& report, SteadyTime now) {
   if (report.state == BoardState::Idle) return end_jog("");
   if (report.state == BoardState::Alarm) return end_jog("the board is in alarm" + last_alarm_);
   end_jog(fmt::format("the board is in state {}", to_string(report.state)));
-}
-
-void BoardSession::stop_homing(SteadyTime now) {
-  if (is_homing() && stop_ == Stop::None) begin_stop(Stop::Abort, {}, now);
 }
 
 }  // namespace dripline::machine::grbl

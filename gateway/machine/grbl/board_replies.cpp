@@ -66,15 +66,6 @@ void BoardSession::on(const ErrorReply& error, SteadyTime now) {
         now);
 }
 
-/// The silence of homing is over.
-void BoardSession::end_homing(SteadyTime now) {
-  if (!homing_limit_) return;
-  homing_limit_.reset();
-  unanswered_poll_.reset();
-  report_.reset();  // what was reported before it is old
-  next_poll_ = now;
-}
-
 void BoardSession::on(const AlarmReply& alarm, SteadyTime now) {
   last_alarm_ = fmt::format(" {} ({})", alarm.code, alarm_text(alarm.code));
   if (!grbl::keeps_position(alarm.code)) lose_position();

@@ -301,22 +301,6 @@ bool BoardSession::resume(SteadyTime now) {
   return true;
 }
 
-Result<void> BoardSession::reference(bool is_homing, SteadyTime now) {
-  if (fault_ || is_active_) return fail(Errc::Busy, "a program or a fault of the board is active");
-  if (phase_ != Phase::Ready || !not_ready_.empty()) return fail(Errc::Busy, "{}", not_ready_);
-  if (is_homing && !info_.homes())
-    return fail(Errc::Unsupported, "the board does not home ($22=0): unlock it where the axes are");
-  const bool is_at_rest =
-      report_ && (report_->state == BoardState::Idle || report_->state == BoardState::Alarm);
-  if (!is_at_rest || stop_ != Stop::None || counter_.unanswered_lines() > 0)
-    return fail(Errc::Busy, "the board is not at rest");
-  send_system(is_homing ? "$H" : "$X");
-  if (is_homing) lose_position();
-  reference_ = is_homing ? PositionTrust::Homed : PositionTrust::Unlocked;
-  homing_limit_ = now + (is_homing ? limits_.homing : limits_.answer);
-  return {};
-}
-
 void BoardSession::begin_stop(Stop stop, milliseconds brake, SteadyTime now) {
   stop_ = stop;
   stop_limit_ = now + brake;
@@ -375,11 +359,6 @@ void BoardSession::restart(SteadyTime now) {
   trust_ = trust;
   keeps_position_ = is_kept;
   is_new_line_ = false;
-}
-
-void BoardSession::lose_position() {
-  trust_ = PositionTrust::Lost;
-  keeps_position_ = false;
 }
 
 bool BoardSession::is_connected() const {
