@@ -37,6 +37,7 @@ class BoardInfo {
   double acceleration(std::size_t axis) const {
     return setting(120, axis);
   }  ///< per second squared
+  bool is_grbl_hal() const { return is_grbl_hal_; }
   /// It has reference points ($22).
   bool homes() const { return (static_cast<unsigned>(setting_or(22, 0)) & 1U) != 0; }
   bool has_line_numbers() const { return has_letter('N'); }

@@ -171,10 +171,7 @@ void BoardSession::on(const StatusReport& report, SteadyTime now) {
     else if (stop_ == Stop::None)
       begin_stop(Stop::Wake, limits_.brake, now);
   }
-  if (stop_ != Stop::None) {
-    if (report.rests()) reset_board(now);
-    return;
-  }
+  if (stop_ != Stop::None) return continue_stop(report, now);
   if (phase_ != Phase::Ready) return;
   if (report.state == BoardState::Idle && tracker_.is_empty() && report.buffers)
     tracker_.set_capacity(report.buffers->free_blocks);
@@ -212,6 +209,10 @@ void BoardSession::watch_state(const StatusReport& report, SteadyTime now) {
     if (is_resuming_ && report.rests()) {
       real_time(kCycleStart);
       cycle_start_is_sent_ = true;
+    } else if (report.leaves_door() && !is_resuming_ && is_active_) {
+      // Begun before the hold arrived, or by the board's own button.
+      send_hold();
+      next_poll_ = std::min(next_poll_, now + kObeys);
     }
     is_held_ = true;  // also what the board's own button or door has held
     hold_is_sent_ = false;

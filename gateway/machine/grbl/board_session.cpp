@@ -271,13 +271,22 @@ void BoardSession::raise(std::string_view id, std::string text, SteadyTime now) 
 
 // -- the operator --------------------------------------------------------------------------------
 
+/// A board that leaves a safety door takes no feed hold, and then moves the axes. The door's own
+/// byte brings it back to where only a cycle start leaves it.
+void BoardSession::send_hold() {
+  real_time(kFeedHold);
+  if (!report_ || report_->state != BoardState::Door) return;
+  const bool may_leave = report_->leaves_door() || std::exchange(cycle_start_is_sent_, false);
+  if (may_leave) real_time(kSafetyDoor);
+}
+
 void BoardSession::hold(SteadyTime now) {
   is_held_ = true;
   is_resuming_ = false;
   if (phase_ != Phase::Ready || stop_ != Stop::None) return;
-  real_time(kFeedHold);
+  send_hold();
   hold_is_sent_ = true;
-  next_poll_ = std::min(next_poll_, now + milliseconds(20));
+  next_poll_ = std::min(next_poll_, now + kObeys);
 }
 
 /// Or was, when the axes began to brake. At 0 it is closed, at 3 and 4 the spindle comes up.
@@ -306,8 +315,20 @@ void BoardSession::begin_stop(Stop stop, milliseconds brake, SteadyTime now) {
   stop_limit_ = now + brake;
   is_resuming_ = false;
   drop_output();
-  real_time(kFeedHold);
+  send_hold();
   next_poll_ = now;
+}
+
+/// Each report shows whether the board has obeyed.
+void BoardSession::continue_stop(const StatusReport& report, SteadyTime now) {
+  // grblHAL takes nothing but a reset there. Its axes are at rest; where they are not, it sends an
+  // alarm.
+  const bool obeys_no_hold = report.leaves_door() && info_.is_grbl_hal();
+  if (report.rests() || obeys_no_hold) return reset_board(now);
+  const bool is_in_hold = report.state == BoardState::Hold || report.state == BoardState::Door;
+  if (is_in_hold && !report.leaves_door()) return;
+  send_hold();
+  next_poll_ = std::min(next_poll_, now + kObeys);
 }
 
 void BoardSession::stop(bool is_emergency, SteadyTime now) {
@@ -319,7 +340,7 @@ void BoardSession::stop(bool is_emergency, SteadyTime now) {
   switch (phase_) {
     case Phase::Ready:
       if (stop_ != Stop::Fault) return begin_stop(Stop::Emergency, brake, now);
-      real_time(kFeedHold);
+      send_hold();
       stop_limit_ = std::min(stop_limit_, now + brake);
       return;
     case Phase::Waking:  // what it does is not known yet
@@ -337,7 +358,7 @@ void BoardSession::stop(bool is_emergency, SteadyTime now) {
 }
 
 void BoardSession::reset_board(SteadyTime now) {
-  if (!report_ || !report_->rests()) lose_position();
+  if (!report_ || !(report_->rests() || report_->leaves_door())) lose_position();
   drop_output();  // lines that have not left must not reach a board that was reset
   real_time(kSoftReset);
   splitter_.reset();

@@ -135,7 +135,10 @@ class BoardSession final : public streamed::Device {
   void on(const UnusedReply&, SteadyTime) {}
   void on(const GarbageReply& garbage, SteadyTime now);
 
+  static constexpr std::chrono::milliseconds kObeys{20};  ///< until a byte's effect is reported
   void real_time(char byte) { output_.real_time += byte; }
+  void send_hold();
+  void continue_stop(const StatusReport& report, SteadyTime now);
   void send_system(const std::string& text);
   bool check_modes(SteadyTime now);
   bool door_is_open() const;

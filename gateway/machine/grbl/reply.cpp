@@ -212,6 +212,11 @@ bool StatusReport::rests() const {
   }
 }
 
+/// 3, and grblHAL's 4: the spindle comes up.
+bool StatusReport::leaves_door() const {
+  return state == BoardState::Door && substate.value_or(0) > 2;
+}
+
 std::string_view to_string(BoardState state) {
   return std::ranges::find(kStates, state, &std::pair<std::string_view, BoardState>::second)->first;
 }

@@ -39,7 +39,7 @@ std::string_view to_string(BoardState state);
 
 /// Single bytes that a board acts on at once, outside of its lines.
 inline constexpr char kAskStatus = '?', kFeedHold = '!', kCycleStart = '~', kSoftReset = '\x18',
-                      kJogCancel = '\x85';
+                      kSafetyDoor = '\x84', kJogCancel = '\x85';
 
 struct OkReply {};
 struct ErrorReply {
@@ -72,7 +72,8 @@ struct StatusReport {
   std::optional<Overrides> overrides;
   std::string pins;  ///< letters of the input pins that are active
 
-  bool rests() const;  ///< no axis moves, and none is about to
+  bool rests() const;        ///< no axis moves, and none is about to
+  bool leaves_door() const;  ///< after a cycle start: the axes are about to move
 };
 struct SettingReply {
   int number = 0;

@@ -90,10 +90,13 @@ void GrblBoard::cancel_jog() {
 
 void GrblBoard::open_door() {
   is_door_open_ = true;
+  begin_door();
+}
+
+void GrblBoard::begin_door() {
   restore_left_ = 0;
-  if (state_ == State::Alarm) return;
-  is_braking_ = state_ == State::Run;
-  brake_left_ = options_.brake_seconds;
+  if (state_ == State::Alarm || state_ == State::Check) return;
+  if (state_ == State::Run) is_braking_ = true, brake_left_ = options_.brake_seconds;
   state_ = State::Door;
 }
 
@@ -143,6 +146,11 @@ void GrblBoard::on_real_time(char byte) {
       }
       return greet();
     }
+    case 0x84:
+      // grblHAL takes it in no state of its door.
+      if (options_.is_grbl_hal && state_ == State::Door) return;
+      if (state_ == State::Jog) return cancel_jog();
+      return begin_door();
     case 0x85:
       if (options_.is_grbl_hal) rx_.clear();
       if (!ignores_jog_cancel) cancel_jog();
@@ -284,7 +292,10 @@ void GrblBoard::report() {
   std::string text = "<" + std::string(kNames[static_cast<std::size_t>(state_)]);
   if (state_ == State::Hold) text += is_braking_ ? ":1" : ":0";
   if (state_ == State::Door)
-    text += restore_left_ > 0 ? ":3" : is_braking_ ? ":2" : is_door_open_ ? ":1" : ":0";
+    text += restore_left_ > 0 ? (options_.is_grbl_hal ? ":4" : ":3")
+            : is_braking_     ? ":2"
+            : is_door_open_   ? ":1"
+                              : ":0";
   text += (options_.reports_work_position ? "|WPos:" : "|MPos:") + words_of(at_);
   // An override changes how far ahead blocks are prepared; what was prepared stays so.
   const int used = std::min(static_cast<int>(planned()), options_.planner_blocks - leaked_blocks) +

@@ -106,6 +106,7 @@ class GrblBoard {
   void soft_reset();
   int jog(const std::string& line);
   void cancel_jog();
+  void begin_door();
   void greet();
   void step(double seconds);
   void take_lines();

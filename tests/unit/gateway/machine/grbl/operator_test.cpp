@@ -312,43 +312,6 @@ TEST_F(GrblOperator, AnOpenDoorHoldsAndItsClosingStartsNothing) {
   EXPECT_EQ(shop.machine.state(), MachineState::Completed);
 }
 
-// A board with the spindle on takes its time between cycle start and motion.
-TEST_F(GrblOperator, ADoorIsLeftWithOneCycleStart) {
-  shop.begin();
-  shop.program.spindle(3000);
-  for (int i = 1; i <= 40; ++i) shop.program.line(i * 2, 0, 1200);
-  shop.program.end();
-  ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 5; }));
-  shop.board.open_door();
-  shop.pass(1);
-  shop.board.close_door();
-  shop.pass(1);
-  EXPECT_TRUE(shop.machine.resume());
-  EXPECT_EQ(moved_in(3), 0) << "the spindle comes up";
-  EXPECT_GT(moved_in(3), 10);
-  ASSERT_TRUE(shop.pass_until_over());
-  EXPECT_EQ(shop.machine.state(), MachineState::Completed);
-}
-
-TEST_F(GrblOperator, ADoorThatOpensAgainMeanwhileNeedsTheOperatorAgain) {
-  shop.begin();
-  shop.program.spindle(3000);
-  for (int i = 1; i <= 40; ++i) shop.program.line(i * 2, 0, 1200);
-  ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 5; }));
-  shop.board.open_door();
-  shop.pass(1);
-  shop.board.close_door();
-  shop.pass(1);
-  EXPECT_TRUE(shop.machine.resume());
-  shop.pass(1);
-  shop.board.open_door();
-  shop.pass(1);
-  shop.board.close_door();
-  EXPECT_EQ(moved_in(8), 0);
-  EXPECT_TRUE(shop.machine.resume());
-  EXPECT_GT(moved_in(8), 10);
-}
-
 TEST_F(GrblOperator, NeitherHomesNorUnlocksDuringAProgram) {
   run();
   EXPECT_FALSE(shop.machine.home());
