@@ -3,6 +3,8 @@
 A gateway starts it (helper_link.cpp): python3 -c TEXT INI. It is a program of its own because LinuxCNC's interface is a module for
 Python, and because that module may block for seconds. It holds no state of the program. When stdin ends, the gateway is gone: what
 it has started is aborted. When LinuxCNC's task ends, what the task has given to the motion process is stopped.
+
+The text of helper_orders.py comes before this text.
 """
 import json
 import os
@@ -13,7 +15,6 @@ import time
 
 STATUS_PERIOD = 0.008  # while something changes
 STILL_PERIOD = 0.1  # else: shows that the helper is alive
-COMMAND_WAIT = 2.0
 LEAVE_WAIT = 0.8  # the gateway kills a helper that takes longer than a second
 STANDSTILL_WAIT = 3.0
 
@@ -136,6 +137,7 @@ class Machine:
         self.file = None
         self.jogged_axis = None
         self.has_homed = False
+        self.commands = Commands(self.command, self.stat)
 
     def wait_for_status(self):
         end = time.monotonic() + 5
@@ -207,75 +209,21 @@ class Machine:
             "echo": s.echo_serial_number,
         }
 
-    def to_mode(self, mode):
-        self.stat.poll()
-        if self.stat.task_mode != mode:
-            self.command.mode(mode)
-            self.command.wait_complete(COMMAND_WAIT)
-
-    def do(self, order):
-        c = self.command
+    def note(self, order):
+        """What `leave` has to stop."""
         what = order["do"]
         if what == "run":
-            self.to_mode(linuxcnc.MODE_AUTO)
-            self.has_program = True
-            self.file = order["file"]
-            c.set_optional_stop(False)
-            c.set_block_delete(False)
-            c.program_open(order["file"])
-            c.wait_complete(COMMAND_WAIT)
-            c.auto(linuxcnc.AUTO_RUN, 0)
-        elif what == "pause":
-            c.auto(linuxcnc.AUTO_PAUSE)
-        elif what == "resume":
-            c.auto(linuxcnc.AUTO_RESUME)
-        elif what == "abort":
-            c.abort()
-            self.has_program = self.has_homed = False
-        elif what == "override":
-            c.feedrate(order["feed"])
-            c.rapidrate(order["rapid"])
-            c.spindleoverride(order["spindle"])
-        elif what == "emergency":
-            c.state(linuxcnc.STATE_ESTOP)
-            self.has_program = False
-        elif what == "reset":
-            c.state(linuxcnc.STATE_ESTOP_RESET)
-            c.wait_complete(COMMAND_WAIT)
-        elif what == "on":
-            c.state(linuxcnc.STATE_ON)
-            c.wait_complete(COMMAND_WAIT)
+            self.has_program, self.file = True, order["file"]
         elif what == "home":
-            c.state(linuxcnc.STATE_ON)
-            c.wait_complete(COMMAND_WAIT)
-            self.to_mode(linuxcnc.MODE_MANUAL)
-            c.teleop_enable(0)
-            c.wait_complete(COMMAND_WAIT)
             self.has_homed = True
-            c.home(-1)
         elif what == "jog":
-            return self.jog(order)
+            self.jogged_axis = order["axis"]
         elif what == "stop_jog":
-            c.jog(linuxcnc.JOG_STOP, 0, order["axis"])
             self.jogged_axis = None
-        elif what == "hal":
-            say(signal(order["name"]))
-        else:
-            return "unknown command " + what
-        return ""
-
-    def jog(self, order):
-        """By one step along an axis of the machine; LinuxCNC ends it by itself."""
-        self.to_mode(linuxcnc.MODE_MANUAL)
-        self.command.teleop_enable(1)
-        self.command.wait_complete(COMMAND_WAIT)
-        self.stat.poll()
-        if self.stat.task_mode != linuxcnc.MODE_MANUAL or self.stat.motion_mode != linuxcnc.TRAJ_MODE_TELEOP:
-            return "it does not change to manual mode with axes that move together"
-        self.jogged_axis = order["axis"]
-        self.command.jog(linuxcnc.JOG_INCREMENT, 0, order["axis"], order["velocity"], order["distance"])
-        self.command.wait_complete(COMMAND_WAIT)
-        return ""
+        elif what == "emergency":
+            self.has_program = False
+        elif what == "abort":
+            self.has_program = self.has_homed = False
 
     def homes(self):
         return any(j["homing"] for j in self.stat.joint[:self.stat.joints])
@@ -286,6 +234,7 @@ class Machine:
         return self.homes() or not all(self.stat.homed[:self.stat.joints])
 
     def leave(self):
+        self.commands.count_stop()
         if self.jogged_axis is not None:
             self.command.jog(linuxcnc.JOG_STOP, 0, self.jogged_axis)
         if self.has_program:
@@ -323,7 +272,7 @@ class Machine:
         say({"status": status})
 
 
-def read_orders(machine, buffer):
+def read_orders(machine, orders, buffer):
     try:
         data = os.read(0, 65536)
     except OSError:
@@ -332,26 +281,26 @@ def read_orders(machine, buffer):
         machine.leave()
     *lines, rest = (buffer + data).split(b"\n")
     for line in lines:
-        order = json.loads(line)
-        try:
-            problem = machine.do(order)
-        except (linuxcnc.error, KeyError, ValueError) as error:
-            problem = str(error) or "refused"
-        machine.stat.poll()
-        say({"done": order["n"], "problem": problem, "echo": machine.command.serial})
+        orders.take(json.loads(line))
     return rest
 
 
 def serve(machine):
     buffer, last, last_said = b"", None, 0.0
+    orders = Orders(machine)
     while True:
-        ready, _, _ = select.select([0, *machine.lives], [], [], STATUS_PERIOD)
-        if any(life in ready for life in machine.lives):
-            if ready == [machine.task]:
+        ready, _, _ = select.select([0, *machine.lives, *orders.running], [], [], STATUS_PERIOD)
+        ended = [life for life in machine.lives if life in ready]
+        if ended:
+            machine.commands.count_stop()
+            if ended == [machine.task]:
                 machine.lose_task()
             give_up("LinuxCNC has ended")
         if 0 in ready:
-            buffer, last = read_orders(machine, buffer), None  # what a command has done is reported
+            buffer = read_orders(machine, orders, buffer)
+        if any(end in ready for end in orders.running):
+            orders.take_answers(ready)
+            last = None  # what a command has done is reported
         machine.stat.poll()
         for _ in range(20):
             message = machine.errors.poll()

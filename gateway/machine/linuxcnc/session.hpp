@@ -9,7 +9,7 @@ namespace dripline::machine::linuxcnc {
 
 struct SessionLimits {
   std::chrono::milliseconds start{15'000};   ///< the helper introduces itself
-  std::chrono::milliseconds silence{6'000};  ///< of the helper, longer than its longest command
+  std::chrono::milliseconds silence{6'000};  ///< of the helper, which waits for no command
   std::chrono::milliseconds answer{6'000};   ///< a program is opened, an abort has come to rest
   std::chrono::milliseconds pause{3'000};    ///< until the axes rest
   std::chrono::milliseconds reason{150};     ///< for LinuxCNC's message, when it has stopped

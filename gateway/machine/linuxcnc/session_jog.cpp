@@ -53,7 +53,7 @@ bool Session::is_homing() const {
   return phase_ == Phase::Ready && status_ && !is_active_ && (status_->is_homing || homing_);
 }
 
-/// The helper executes its commands in their order.
+/// It overtakes what the helper has not sent of the homing yet.
 void Session::stop_homing(SteadyTime now) {
   if (is_homing()) abort(now);
 }

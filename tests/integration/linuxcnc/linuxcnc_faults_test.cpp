@@ -139,6 +139,22 @@ TEST_F(LinuxCncFaults, TheEmergencyStopEndsTheProgram) {
   EXPECT_LE(recorder.blocks.back(), static_cast<std::uint64_t>(x() + 0.001) + 1);
 }
 
+/// What is needed for a jog are several commands, and each waits for LinuxCNC.
+TEST_F(LinuxCncFaults, AnEmergencyStopOvertakesAJogThatLinuxCncHasNotTaken) {
+  const double at = x();
+  linuxcnc->kill("milltask", "-STOP");
+  ASSERT_TRUE(
+      machine->jog({.axis = interpreter::Axis::X, .distance = 50, .feed_per_minute = 6000}));
+  std::this_thread::sleep_for(500ms);
+  press_emergency_stop(true);
+  linuxcnc->kill("milltask", "-CONT");
+  ASSERT_TRUE(wait([&] { return !machine->is_jogging(); }));
+  EXPECT_TRUE(wait([&] { return refusal().find("emergency stop") != std::string::npos; }))
+      << refusal();
+  ASSERT_TRUE(rests());
+  EXPECT_EQ(x(), at);
+}
+
 TEST_F(LinuxCncFaults, ABackEndThatEndsStopsTheAxes) {
   start_long_program();
   machine.reset();

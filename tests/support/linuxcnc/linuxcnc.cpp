@@ -118,8 +118,8 @@ void LinuxCnc::start() {
       << log();
 }
 
-void LinuxCnc::kill(const std::string& process) const {
-  (void)run_to_end({"/usr/bin/killall", "-9", process}, folder_.path() / "killall.log");
+void LinuxCnc::kill(const std::string& process, const std::string& signal) const {
+  (void)run_to_end({"/usr/bin/killall", signal, process}, folder_.path() / "killall.log");
 }
 
 std::string LinuxCnc::log() const {

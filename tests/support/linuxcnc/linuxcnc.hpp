@@ -40,8 +40,8 @@ class LinuxCnc {
   /// Waits until it is up; failures are those of gtest. Once more after its end.
   void start();
   void stop();
-  /// Kills one of its processes: "milltask", "rtapi_app".
-  void kill(const std::string& process) const;
+  /// Kills one of its processes: "milltask", "rtapi_app". Or sends it another signal: "-STOP".
+  void kill(const std::string& process, const std::string& signal = "-9") const;
   std::string ini() const { return folder_.path() / "mill.ini"; }
   std::string log() const;
 
