@@ -112,7 +112,10 @@ void BoardSession::tick(SteadyTime now) {
 /// The answer to the status request that follows shows that the board has taken the step.
 void BoardSession::step_overrides(SteadyTime now) {
   if (stop_ != Stop::None || unanswered_poll_) return;
+  if (is_active_ && overrides_.is_refused())
+    return raise("GRB0006", "the board does not take the overrides of its feed and rapid", now);
   const std::string step = overrides_.take_step();
+  if (!overrides_.is_in_force()) next_poll_ = std::min(next_poll_, now + kObeys);
   if (step.empty()) return;
   output_.real_time += step;
   ask(now);

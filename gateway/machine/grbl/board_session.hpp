@@ -93,6 +93,7 @@ class BoardSession final : public streamed::Device {
   void restart(SteadyTime now) override;
   OperatorPanel known(OperatorPanel panel) const override { return OverrideSender::known(panel); }
   void set_overrides(const OperatorPanel& panel) override { overrides_.want(panel); }
+  bool has_overrides() const override { return overrides_.is_in_force(); }
   Result<void> home(SteadyTime now) override { return reference(true, now); }
   bool is_homing() const override { return homing_limit_ && reference_ == PositionTrust::Homed; }
   /// A soft reset: a board that homes obeys nothing else.

@@ -70,14 +70,17 @@ std::string OverrideSender::take_step() {
   if (is_at_.rapid != wanted_.rapid) bytes += rapid_byte(wanted_.rapid);
   is_at_.rapid = wanted_.rapid;
   append_step(kSpindle, is_at_.spindle, wanted_.spindle, bytes);
-  if (!bytes.empty()) reports_ = 0;
+  if (!bytes.empty()) reports_ = 0, is_confirmed_ = false;
   return bytes;
 }
 
 /// The board reports before it acts on what came with the request: its first report after a step is
 /// old.
 void OverrideSender::reported(const std::optional<OverridePercent>& now) {
-  if (++reports_ > 1 && now) is_at_ = *now;
+  if (++reports_ < 2 || !now) return;
+  is_confirmed_ = move_alike(*now, is_at_);
+  refusals_ = is_confirmed_ ? 0 : refusals_ + 1;
+  is_at_ = *now;
 }
 
 }  // namespace dripline::machine::grbl

@@ -29,7 +29,7 @@ void Session::opened(SteadyTime now) {
   status_.reset();
   signal_.reset();
   homing_.reset();
-  command_number_ = done_number_ = awaited_ = must_obey_ = shown_number_ = 0;
+  command_number_ = done_number_ = awaited_ = must_obey_ = shown_number_ = overrides_number_ = 0;
   has_sent_overrides_ = are_overrides_due_ = false;
   trouble_ = "LinuxCNC has not answered yet";
   keeps_position_ = true;
@@ -68,9 +68,9 @@ std::uint64_t Session::command(const std::string& members) {
 }
 
 void Session::send_overrides() {
-  command(fmt::format(R"("do":"override","feed":{:.4f},"rapid":{:.4f},"spindle":{:.4f})",
-                      overrides_.feed_override, overrides_.rapid_override,
-                      overrides_.spindle_override));
+  overrides_number_ = command(fmt::format(
+      R"("do":"override","feed":{:.4f},"rapid":{:.4f},"spindle":{:.4f})", overrides_.feed_override,
+      overrides_.rapid_override, overrides_.spindle_override));
   has_sent_overrides_ = true;
   are_overrides_due_ = false;
 }

@@ -85,6 +85,9 @@ class Session final : public streamed::Device {
   void restart(SteadyTime now) override;
   OperatorPanel known(OperatorPanel panel) const override { return panel; }
   void set_overrides(const OperatorPanel& panel) override;
+  bool has_overrides() const override {
+    return !are_overrides_due_ && done_number_ >= overrides_number_;
+  }
   Result<void> home(SteadyTime now) override;
   bool is_homing() const override;
   void stop_homing(SteadyTime now) override;
@@ -200,6 +203,7 @@ class Session final : public streamed::Device {
   OperatorPanel overrides_;
   bool has_sent_overrides_ = false;  ///< of this helper: LinuxCNC has those that were sent last
   bool are_overrides_due_ = false;
+  std::uint64_t overrides_number_ = 0;  ///< of the command that has sent them last
   int garbage_ = 0;
   std::size_t bytes_in_second_ = 0;
   std::chrono::milliseconds longest_{};

@@ -150,8 +150,9 @@ bool StreamedMachine::deliver_front(Lock& lock) {
 }
 
 /// The last moment to write what was reported before the motion. False: it cannot be written, and
-/// nothing begins.
+/// nothing begins. At the end of an inhibit a device needs some time for the operator's overrides.
 bool StreamedMachine::start_front(Lock& lock) {
+  if (!device_.has_overrides()) return false;
   const Origin origin = origin_;
   bool may_start = false;
   tell(lock, [&](ExecutionSink& sink) { may_start = sink.on_motion_starts(origin); });

@@ -91,6 +91,8 @@ class Device {
   virtual OperatorPanel known(OperatorPanel panel) const = 0;
   /// Of feed, rapid and spindle, as factors.
   virtual void set_overrides(const OperatorPanel& panel) = 0;
+  /// Those that were set last are in force: what is sent now is executed with them.
+  virtual bool has_overrides() const = 0;
   virtual Result<void> home(SteadyTime now) = 0;
   /// Until the axes are at their reference points, or were stopped.
   virtual bool is_homing() const = 0;

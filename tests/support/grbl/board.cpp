@@ -156,7 +156,7 @@ void GrblBoard::on_real_time(char byte) {
       if (!ignores_jog_cancel) cancel_jog();
       return;
     default:
-      override_bytes_.insert(static_cast<unsigned char>(byte));
+      if (!ignores_overrides) override_bytes_.insert(static_cast<unsigned char>(byte));
       return;
   }
 }

@@ -78,6 +78,7 @@ class GrblBoard {
   void enter_check_mode() { state_ = State::Check; }
   bool ignores_reset = false;
   bool ignores_jog_cancel = false;
+  bool ignores_overrides = false;
   bool is_mute = false;          ///< answers nothing
   bool is_stuck = false;         ///< reports Run, the axes stand
   bool swallows_lines = false;   ///< lines are lost in transit

@@ -109,107 +109,6 @@ TEST_F(GrblOperator, EmergencyStopEndsTheProgramWhenItIsReleased) {
   EXPECT_TRUE(shop.has("aborted"));
 }
 
-TEST_F(GrblOperator, OverridesReachTheBoard) {
-  run();
-  set({.feed_override = 0.37, .rapid_override = 0.6, .spindle_override = 1.25});
-  shop.pass(0.1);
-  EXPECT_EQ(shop.board.feed_override(), 37);
-  EXPECT_EQ(shop.board.rapid_override(), 50) << "never faster than asked";
-  EXPECT_EQ(shop.board.spindle_override(), 125);
-  EXPECT_NEAR(moved_in(1), 20 * 0.37, 0.5);
-}
-
-TEST_F(GrblOperator, AnOverrideIsNeverPassedOnItsWay) {
-  run();
-  set({.feed_override = 0.5});
-  shop.pass(1);
-  ASSERT_EQ(shop.board.feed_override(), 50);
-  set({.feed_override = 0.69});
-  for (int i = 0; i < 1000; ++i) {
-    shop.pass(0.001);
-    ASSERT_LE(shop.board.feed_override(), 69);
-    ASSERT_GE(shop.board.feed_override(), 50);
-  }
-  EXPECT_EQ(shop.board.feed_override(), 69);
-}
-
-TEST_F(GrblOperator, RepeatsAnOverrideThatWasLost) {
-  run();
-  shop.is_cut = true;
-  set({.feed_override = 0.5});
-  shop.pass(0.05);
-  shop.is_cut = false;
-  EXPECT_TRUE(shop.pass_until([&] { return shop.board.feed_override() == 50; }, 3));
-}
-
-TEST_F(GrblOperator, AFeedOverrideOfZeroHoldsUntilItIsRaised) {
-  run();
-  set({.feed_override = 0.04});
-  EXPECT_EQ(shop.machine.panel().feed_override, 0);
-  shop.pass(0.5);
-  EXPECT_EQ(moved_in(3), 0);
-  EXPECT_FALSE(shop.machine.resume());
-  set({.feed_override = 0.5});
-  ASSERT_TRUE(shop.pass_until_over());
-  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
-}
-
-TEST_F(GrblOperator, RaisingTheOverrideEndsNoHoldOfTheOperator) {
-  run();
-  set({.feed_override = 0});
-  shop.pass(0.5);
-  shop.machine.hold();
-  set({.feed_override = 1});
-  EXPECT_EQ(moved_in(3), 0) << "held first by the override, then by the operator";
-  EXPECT_EQ(shop.machine.state(), MachineState::Held);
-  EXPECT_TRUE(shop.machine.resume());
-  shop.pass(1);
-  shop.machine.hold();
-  shop.pass(0.5);
-  set({.rapid_override = 0});
-  set({.rapid_override = 1});
-  EXPECT_EQ(moved_in(3), 0) << "held by the operator before";
-  EXPECT_TRUE(shop.machine.resume());
-  EXPECT_GT(moved_in(1), 1);
-}
-
-TEST_F(GrblOperator, AFeedOverrideOfZeroEndsAResumeThatIsUnderWay) {
-  run();
-  shop.machine.hold();
-  shop.pass(0.5);
-  EXPECT_TRUE(shop.machine.resume());
-  set({.feed_override = 0});
-  EXPECT_EQ(moved_in(3), 0) << "the operator's resume";
-  EXPECT_FALSE(shop.machine.resume());
-  set({.feed_override = 0.15});
-  EXPECT_GT(moved_in(3), 1);
-  for (const double factor : {0.05, 0.15, 0.05, 0.15, 0.05}) set({.feed_override = factor});
-  shop.pass(0.5);
-  EXPECT_EQ(moved_in(3), 0) << "that of the override";
-  set({.feed_override = 1});
-  ASSERT_TRUE(shop.pass_until_over());
-  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
-}
-
-TEST_F(GrblOperator, RaisingTheOverrideStartsNothingAfterADoorWasOpen) {
-  run();
-  set({.feed_override = 0});
-  shop.pass(0.5);
-  shop.board.open_door();
-  shop.pass(1);
-  shop.board.close_door();
-  shop.pass(0.5);
-  set({.feed_override = 0.5});
-  EXPECT_EQ(moved_in(3), 0);
-  EXPECT_EQ(shop.machine.state(), MachineState::Held);
-  EXPECT_TRUE(shop.machine.resume());
-  EXPECT_GT(moved_in(1), 1);
-  set({.feed_override = 0});
-  shop.pass(0.5);
-  set({.feed_override = 0.5});
-  EXPECT_GT(moved_in(1), 1) << "a hold after that one";
-}
-
 TEST_F(GrblOperator, NothingContinuesUnattendedAfterADoorWasOpen) {
   run();
   shop.machine.hold();
@@ -226,17 +125,6 @@ TEST_F(GrblOperator, NothingContinuesUnattendedAfterADoorWasOpen) {
   EXPECT_EQ(moved_in(3), 0);
   EXPECT_TRUE(shop.machine.resume());
   EXPECT_GT(moved_in(1), 1);
-}
-
-TEST_F(GrblOperator, AProgramBeginsNothingAtAnOverrideOfZero) {
-  set({.feed_override = 0});
-  shop.begin();
-  shop.program.line(5, 0, 1200);
-  shop.program.end();
-  EXPECT_EQ(moved_in(3), 0);
-  set({.feed_override = 1});
-  ASSERT_TRUE(shop.pass_until_over(10));
-  EXPECT_EQ(shop.machine.state(), MachineState::Completed) << shop.alarm();
 }
 
 TEST_F(GrblOperator, TheEmergencyStopReportsSpindleAndCoolantOff) {
