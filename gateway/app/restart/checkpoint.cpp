@@ -20,8 +20,9 @@ constexpr std::uint32_t kFormat = 3;
 constexpr std::uint32_t kAnswerFormat = 4;
 /// Of conditions, which name changes of switches; kFormat: without.
 constexpr std::uint32_t kConditionsFormat = 5;
-/// Of endings, which say whether the tool stopped in a thread; kFormat: without.
-constexpr std::uint32_t kEndingFormat = 6;
+/// Of endings, which have the place where the axes rested; kThreadFormat: without; kFormat: without
+/// whether the tool stopped in a thread, too.
+constexpr std::uint32_t kEndingFormat = 8, kThreadFormat = 6;
 
 /// Of checkpoints, whose position is that after a probe move; kFormat: before it, which is refused.
 constexpr std::uint32_t kCheckpointFormat = 7;
@@ -116,6 +117,26 @@ struct FormerEnding {
   std::string memory;
   InHand in_hand;
 };
+/// Of kThreadFormat.
+struct ThreadEnding {
+  report::Progress executed;
+  std::int64_t time_us = 0;
+  bool is_completed = false;
+  std::optional<interpreter::Position> stopped_at;
+  std::string memory;
+  InHand in_hand;
+  bool is_in_thread = false;
+};
+
+template <class Former>
+RunEnding ending_of(Former former) {
+  return {.executed = former.executed,
+          .time_us = former.time_us,
+          .is_completed = former.is_completed,
+          .stopped_at = former.stopped_at,
+          .memory = std::move(former.memory),
+          .in_hand = std::move(former.in_hand)};
+}
 
 std::string numbered(std::string_view run, std::uint64_t number) {
   return fmt::format("{} {}", run, number);
@@ -167,14 +188,13 @@ Bytes encode(std::string_view run, RunEnding ending) {
 Result<RunEnding> decode_ending(std::string_view run, const Bytes& bytes) {
   auto ending = opened<RunEnding>({kEnding, run}, bytes, kEndingFormat);
   if (ending || ending.error().code != Errc::Unsupported) return ending;
+  if (auto former = opened<ThreadEnding>({kEnding, run}, bytes, kThreadFormat)) {
+    RunEnding read = ending_of(*former);
+    read.is_in_thread = former->is_in_thread;
+    return read;
+  }
   auto former = opened<FormerEnding>({kEnding, run}, bytes);
-  if (!former) return ending;
-  return RunEnding{.executed = former->executed,
-                   .time_us = former->time_us,
-                   .is_completed = former->is_completed,
-                   .stopped_at = former->stopped_at,
-                   .memory = std::move(former->memory),
-                   .in_hand = std::move(former->in_hand)};
+  return former ? Result<RunEnding>(ending_of(*std::move(former))) : ending;
 }
 
 Bytes encode(std::string_view run, std::uint64_t number, interpreter::Answer answer) {

@@ -65,9 +65,12 @@ struct RunEnding {
   std::string memory;         ///< digest of what the control had kept
   InHand in_hand;             ///< what may have been executed besides, or a part of it
   bool is_in_thread = false;  ///< it stopped in a thread or a tapped hole; false after a kill
+  /// The first place at which the axes rested since, which shows what of `in_hand` they have done.
+  /// Later they may be moved by hand. Absent: they have not rested while the gateway was there.
+  std::optional<machine::GivenAction::Point> rested_at = {};
 };
 report::Bytes encode(std::string_view run, RunEnding ending);
-/// Those that were kept without `is_in_thread` are read, too.
+/// Those that were kept without `is_in_thread` or `rested_at` are read, too.
 Result<RunEnding> decode_ending(std::string_view run, const report::Bytes& bytes);
 /// For tests: any bytes with the seal of an ending.
 report::Bytes sealed_ending(std::string_view run, report::Bytes content);

@@ -70,16 +70,17 @@ Result<void> resolve_place(RestartPlan& plan,
                            const std::optional<machine::GivenAction::Point>& rests_at) {
   plan.on_record = plan.ending.executed.executed;
   if (plan.at.kind != Kind::Executed) return {};
-  if (resolve(plan.ending.in_hand, rests_at, plan.ending.executed)) return {};
+  const auto& at = plan.ending.rested_at ? plan.ending.rested_at : rests_at;
+  if (resolve(plan.ending.in_hand, at, plan.ending.executed)) return {};
   const std::uint64_t executed = plan.ending.executed.executed;
   const std::uint64_t last = last_block(plan.ending.in_hand);
-  return fail(Errc::Conflict,
-              "run {} has executed block {} on record, but its machine may have done up to {} "
-              "blocks more; the axes are{}, which does not show how many: look at the part and "
-              "name the block that continues, block={} to block={}",
-              plan.original.run, executed, last - executed,
-              rests_at ? axes_text(*rests_at, plan.ending.in_hand) : " at a place not known",
-              executed + 1, last + 1);
+  return fail(
+      Errc::Conflict,
+      "run {} has executed block {} on record, but its machine may have done up to {} "
+      "blocks more; the axes {}{}, which does not show how many: look at the part and "
+      "name the block that continues, block={} to block={}",
+      plan.original.run, executed, last - executed, plan.ending.rested_at ? "rested then" : "are",
+      at ? axes_text(*at, plan.ending.in_hand) : " at a place not known", executed + 1, last + 1);
 }
 
 /// Of the axes that are not at 0.

@@ -15,7 +15,6 @@ namespace {
 constexpr std::size_t kBlocksPerRound = 256;
 constexpr std::size_t kActionsPerRound = 512;
 constexpr int kMaxRounds = 4096;  ///< bounds a slice even if the clock does not advance
-constexpr milliseconds kCommitRetry{500};
 constexpr milliseconds kSyncInterval{1000};
 constexpr std::uint64_t kCheckpointBlocks = 1'000'000;  ///< between two checkpoints at most
 
@@ -27,7 +26,7 @@ std::string uncertain_text(const RunEnding& ending) {
 }  // namespace
 
 void RunLoop::step(SteadyTime now) {
-  if (!parts_.run.session) return;
+  if (!parts_.run.session) return resolve_at_rest();
   parts_.run.session->feed().poll(now);
   parts_.run.is_ending ? try_to_finish(now) : run_slice(now);
 }
@@ -297,6 +296,7 @@ Result<void> RunLoop::recover() {
                                         progress.executed, uncertain_text(ending));
   ending.time_us = parts_.clock.now().time_since_epoch().count();
   ending.memory = parts_.memory.digest();
+  if (!ending.in_hand.empty() && !ending.rested_at) resting_ = Resting{run->run, ending, {}};
   parts_.outbox.checkpoints().stage_ending(run->run, encode(run->run, std::move(ending)));
   const bool has_memory = !parts_.outbox.memory().cells().empty() && parts_.memory.fault().empty();
   parts_.recorder.end_interrupted(run->run, progress,

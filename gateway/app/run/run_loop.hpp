@@ -91,6 +91,7 @@ class RunLoop {
 
   static constexpr std::chrono::milliseconds kSlice{8};  ///< of work between two looks at the inbox
   static constexpr std::chrono::seconds kRestWait{10};
+  static constexpr std::chrono::milliseconds kCommitRetry{500};
   static constexpr std::chrono::milliseconds kLongestStep{100};  ///< real time never jumps by more
 
  private:
@@ -135,6 +136,7 @@ class RunLoop {
   void stage_ending(dds::RunOutcome outcome);
   InHand in_hand(const std::string& run, std::uint64_t executed) const;
   void resolve_interrupted(const std::string& run, RunEnding& ending);
+  void resolve_at_rest();
   void check_end();
   std::string overdue_reason() const;
   void commit_state();
@@ -160,6 +162,12 @@ class RunLoop {
   bool is_keyed_in_ = false;            ///< of this run: Modes::is_keyed_in
   std::string
       last_run_;  ///< that may have moved the machine; empty: none since the gateway was started
+  struct Resting {
+    std::string run;
+    RunEnding ending;
+    SteadyTime next_commit;
+  };
+  std::optional<Resting> resting_;  ///< an ending that lacks the place where the axes rest
   std::string why_no_modes_ = "nothing has run since the gateway was started";
   std::string notice_;
   std::string setup_given_;  ///< digest of the server's setup of this run

@@ -77,6 +77,7 @@ void RunLoop::keep_modes_of_part() {
 }
 
 void RunLoop::begin_jog() {
+  resolve_at_rest();
   is_jogging_ =
       modes_ && modes_->keeps_zero && is_there(modes_->at, parts_.machine.status().position);
 }

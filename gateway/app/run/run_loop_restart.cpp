@@ -10,6 +10,17 @@ namespace dripline::gateway {
 
 using machine::MachineState;
 
+namespace {
+
+interpreter::Position position_at(const machine::GivenAction::Point& point) {
+  interpreter::Position position;
+  for (const interpreter::Axis axis : interpreter::kAllAxes)
+    position.set_raw(axis, point[static_cast<std::size_t>(axis)]);
+  return position;
+}
+
+}  // namespace
+
 Conditions RunLoop::conditions_of(const StartOrigin& origin) const {
   Conditions conditions;
   conditions.machine = parts_.options.machine;
@@ -116,13 +127,28 @@ void RunLoop::resolve_interrupted(const std::string& run, RunEnding& ending) {
     (void)parts_.machine.poll(machine::Seconds{0}, 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  if (at) {
-    // Not of the status: before a board is identified that has no axes.
-    ending.stopped_at.emplace();
-    for (const interpreter::Axis axis : interpreter::kAllAxes)
-      ending.stopped_at->set_raw(axis, (*at)[static_cast<std::size_t>(axis)]);
-  }
+  // Not of the status: before a board is identified that has no axes.
+  if (at) ending.stopped_at = position_at(*at);
+  ending.rested_at = at;
   (void)resolve(ending.in_hand, at, ending.executed);
+}
+
+/// A device that was stopped by an alarm shows only later how far it has come.
+void RunLoop::resolve_at_rest() {
+  if (!resting_ || parts_.run.session) return;
+  if (!resting_->ending.rested_at) {
+    const auto at = parts_.machine.rests_at();
+    if (!at) return;
+    resting_->ending.rested_at = at;
+    resting_->ending.stopped_at = position_at(*at);
+  }
+  const SteadyTime now = parts_.clock.steady_now();
+  if (now < resting_->next_commit) return;
+  parts_.outbox.checkpoints().stage_ending(resting_->run, encode(resting_->run, resting_->ending));
+  if (parts_.outbox.commit())
+    resting_.reset();
+  else
+    resting_->next_commit = now + kCommitRetry;
 }
 
 /// Before the record of the run's end, and in the same transaction.
@@ -144,8 +170,11 @@ void RunLoop::stage_ending(dds::RunOutcome outcome) {
   const std::string& run = session.run().run;
   if (!is_completed) ending.in_hand = in_hand(run, ending.executed.executed);
   // An aborted machine shows where it rests, and the operator may move it away.
-  if (outcome == dds::RunOutcome::Aborted)
-    (void)resolve(ending.in_hand, parts_.machine.rests_at(), ending.executed);
+  if (outcome == dds::RunOutcome::Aborted) {
+    ending.rested_at = parts_.machine.rests_at();
+    (void)resolve(ending.in_hand, ending.rested_at, ending.executed);
+  }
+  if (!ending.in_hand.empty() && !ending.rested_at) resting_ = Resting{run, ending, {}};
   parts_.outbox.checkpoints().stage_ending(run, encode(run, std::move(ending)));
 }
 

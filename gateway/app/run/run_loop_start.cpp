@@ -88,6 +88,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
                             const StartOrigin& given) {
   const StartOrigin origin = read_on(run, given);
   if (parts_.machine.panel().emergency_stop) return fail(Errc::Busy, "{}", kEmergencyStop);
+  resolve_at_rest();
   auto restart = plan_of(run, origin);
   if (!restart) return fail(restart.error());
   const bool is_restart = restart->has_value(), tests = is_test(origin);
@@ -160,7 +161,10 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
     return done;
   }
 
-  if (!tests) last_run_ = run.run;
+  if (!tests) {
+    last_run_ = run.run;
+    resting_.reset();  // what moves the axes from here on is this run
+  }
   parts_.journal.begin(run.run);
   parts_.on_begin(*setup);
   if (tests) {

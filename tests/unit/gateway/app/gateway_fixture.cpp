@@ -15,9 +15,11 @@ struct GatewayFixture::Process {
   Process(const std::filesystem::path& folder, std::uint64_t outbox_bytes)
       : outbox(report::Outbox::open(folder / "outbox.sqlite", {.max_bytes = outbox_bytes}).value()),
         journal(report::RunJournal::open(folder / "run.journal").value()),
+        motion_journal(report::MotionJournal::open(folder / "motion.journal").value()),
         execution_probe(ExecutionProbe::open(folder / "execution_probe").value()) {}
   report::Outbox outbox;
   report::RunJournal journal;
+  report::MotionJournal motion_journal;
   ExecutionProbe execution_probe;
 };
 
@@ -62,6 +64,7 @@ void GatewayFixture::restart_gateway() {
       .endpoint = *this,
       .outbox = process_->outbox,
       .journal = process_->journal,
+      .motion_journal = motion ? &process_->motion_journal : nullptr,
       .execution_probe = process_->execution_probe,
       .clock = clock,
       .make_motion =

@@ -1,4 +1,7 @@
 // Jogs of a board of the Grbl class.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
 #include "gateway/machine/grbl/grbl_machine.hpp"
 #include "tests/support/grbl/board.hpp"
 #include "tests/unit/gateway/app/jog_fixture.hpp"
@@ -102,6 +105,43 @@ TEST_F(JoggedBoard, AGatewayThatIsKilledMeanwhileFindsTheBoardAtRest) {
   EXPECT_LE(at, 2 + 1e-6);
   EXPECT_NEAR(shop->at(0), at, 1e-6);
   EXPECT_EQ(board->jogs.size(), 1U);
+}
+
+// The board rests in the middle of a block that a later jog completes along its path.
+TEST_F(JoggedBoard, AJogAfterAnAlarmExecutesNoBlock) {
+  start(interpreter::kRs274NgcDialect);
+  shop->push("P", "G21 G90 F1200\nG1 X10\nX20\nX30\nX40\nX50\nM2\n");
+  const auto first = shop->start_command("P");
+  ASSERT_TRUE(shop->send(first).accepted);
+  ASSERT_TRUE(shop->run_until([&] { return board->position()[0] > 12; }));
+  board->refuses_line = 1;
+  ASSERT_TRUE(shop->run_until([&] { return shop->gateway->status().run.empty(); }));
+  ASSERT_THAT(dds::decode_run_end(shop->records.back().text)->reason, StartsWith("GRB0002"));
+  for (const double is_pressed : {1.0, 0.0}) {
+    dds::Command command = shop->command(dds::CommandAction::Switch);
+    command.run.clear();
+    command.argument = "emergency_stop";
+    command.value = is_pressed;
+    ASSERT_TRUE(shop->send(command).accepted);
+  }
+  ASSERT_TRUE(shop->run_until([&] { return machine->notice().empty(); }));
+  const double rested = board->position()[0];
+  ASSERT_LT(rested, 40);
+  ASSERT_TRUE(shop->jog("X 10 mm F1200").starts_with("X ")) << shop->refusal();
+  ASSERT_NEAR(board->position()[0], rested + 10, 1e-3);
+
+  dds::Command again = shop->start_command("P");
+  again.argument = "restart=" + first.run + " at=executed";
+  ASSERT_TRUE(shop->send(again).accepted) << shop->results.at(again.id).reason;
+  const auto report = [&] {
+    return std::ranges::find_if(shop->records, [&](const dds::Record& record) {
+      return record.run == again.run && record.device == "restart";
+    });
+  };
+  ASSERT_TRUE(shop->run_until([&] { return report() != shop->records.end(); }));
+  // The first block has the modes, each other 10 mm.
+  const auto executed = 1 + static_cast<int>(rested / 10);
+  EXPECT_EQ(nlohmann::json::parse(report()->text)["after"]["block"], executed) << report()->text;
 }
 
 TEST_F(JoggedBoard, NotHomedIsNotJogged) {

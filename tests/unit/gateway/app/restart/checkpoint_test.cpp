@@ -175,7 +175,37 @@ TEST(RunEnding, OfTheFormerFormatReadsBack) {
   EXPECT_FALSE(read->is_in_thread);
   RunEnding now = *read;
   now.is_in_thread = true;
-  EXPECT_TRUE(decode_ending("run-1", encode("run-1", now))->is_in_thread);
+  now.rested_at = {1, 2, 3};
+  const auto written = decode_ending("run-1", encode("run-1", now));
+  ASSERT_TRUE(written);
+  EXPECT_TRUE(written->is_in_thread);
+  EXPECT_EQ(written->rested_at, now.rested_at);
+}
+
+/// As they were written before the place where the axes rested was among them.
+struct ThreadEnding {
+  report::Progress executed;
+  std::int64_t time_us = 0;
+  bool is_completed = false;
+  std::optional<Position> stopped_at;
+  std::string memory;
+  InHand in_hand;
+  bool is_in_thread = false;
+};
+
+TEST(RunEnding, WithoutThePlaceOfRestReadsBack) {
+  ThreadEnding former{.executed = {}, .stopped_at = {}, .memory = "m", .in_hand = {}};
+  former.executed.executed = 7;
+  former.is_in_thread = true;
+  std::uint32_t format = 6;
+  interpreter::language::StateWriter writer;
+  writer(format, former);
+  const auto read = decode_ending("run-1", sealed_ending("run-1", writer.take()));
+  ASSERT_TRUE(read) << read.error().what;
+  EXPECT_EQ(read->executed.executed, 7u);
+  EXPECT_EQ(read->memory, "m");
+  EXPECT_TRUE(read->is_in_thread);
+  EXPECT_FALSE(read->rested_at);
 }
 
 /// As they were written before changes of switches were among them.
