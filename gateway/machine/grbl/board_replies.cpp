@@ -81,6 +81,7 @@ void BoardSession::on(const Greeting& greeting, SteadyTime now) {
   const Stop stop = std::exchange(stop_, Stop::None);
   const bool was_ready = phase_ == Phase::Ready;
   if (phase_ != Phase::Resetting && !std::exchange(awaits_greeting_, false)) lose_position();
+  is_off_ = true;
   if (phase_ == Phase::Silent) return;
   drop_lines();
   report_.reset();

@@ -239,6 +239,8 @@ bool BoardSession::check_modes(SteadyTime now) {
 
 std::uint64_t BoardSession::send(const std::string& text, bool moves, milliseconds longest) {
   const std::uint64_t serial = tracker_.sent(moves);
+  is_off_ = false;
+  off_line_ = 0;
   // A build without line numbers reads them and does nothing with them.
   std::string line = info_.has_line_numbers()
                          ? fmt::format("N{}{}\n", tracker_.number_of(serial), text)
@@ -251,7 +253,8 @@ std::uint64_t BoardSession::send(const std::string& text, bool moves, millisecon
 
 void BoardSession::switch_off() {
   constexpr std::string_view kOff = "M5M9";
-  if (preamble_ != Preamble::None && may_send(kOff.size())) send(std::string(kOff), false, {});
+  if (preamble_ != Preamble::None && may_send(kOff.size()))
+    off_line_ = send(std::string(kOff), false, {});
 }
 
 std::optional<streamed::ProbeEnd> BoardSession::probe() const {

@@ -107,6 +107,9 @@ class BoardSession final : public streamed::Device {
   std::string jog_fault() const override { return jog_fault_; }
   void switch_off() override;
   bool is_connected() const override;
+  bool has_switched_off() const override {
+    return is_off_ || (off_line_ > 0 && tracker_.executed() >= off_line_);
+  }
 
   // -- Device: what it does -----------------------------------------------------------------------
   bool is_moving() const override;
@@ -202,6 +205,8 @@ class BoardSession final : public streamed::Device {
   std::string not_ready_ = "the board is not connected";
 
   bool is_active_ = false, is_held_ = false, is_resuming_ = false;
+  bool is_off_ = false;         ///< it has greeted after a reset, and no line was sent since
+  std::uint64_t off_line_ = 0;  ///< the last line, where that switches off; 0: it does not
   bool has_seen_door_ = false;  ///< since the hold began
   bool hold_is_sent_ = false, cycle_start_is_sent_ = false, wants_reopen_ = false;
   std::size_t identified_ = 0;  ///< commands of the identification that are answered

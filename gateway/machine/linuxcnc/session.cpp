@@ -1,6 +1,7 @@
 // The link and what comes over it. The program's side is in session_feed.cpp.
 #include "gateway/machine/linuxcnc/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -316,6 +317,16 @@ bool Session::is_at_rest() const {
 bool Session::is_moving() const {
   return phase_ == Phase::Ready && status_ &&
          (status_->velocity > kStandstill || status_->is_homing || jog_);
+}
+
+/// The end of a program, an abort and the emergency stop switch coolant off together with the
+/// spindle, whose speed is in the status.
+bool Session::has_switched_off() const {
+  if (phase_ != Phase::Ready || !status_ || shown_number_ < std::max(awaited_, must_obey_))
+    return false;
+  const bool has_ended =
+      feed_ == Feed::None && stop_ == Stop::None && status_->interpreter == InterpreterState::Idle;
+  return status_->spindle_rpm == 0 && (has_ended || status_->state != TaskState::On);
 }
 
 double Session::feed_per_minute() const {

@@ -99,6 +99,7 @@ class Session final : public streamed::Device {
   std::string jog_fault() const override { return jog_fault_; }
   void switch_off() override {}  ///< the end of a program does it
   bool is_connected() const override { return phase_ == Phase::Ready; }
+  bool has_switched_off() const override;
   bool is_moving() const override;
   double feed_per_minute() const override;
   double spindle_rpm() const override;

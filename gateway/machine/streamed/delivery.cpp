@@ -67,6 +67,7 @@ Seconds StreamedMachine::poll(Seconds, std::size_t max_actions) {
     pump(lock);
     set_active(has_program && !is_over());
   }
+  report_off();
   wake();
   return Seconds{0};
 }
@@ -326,6 +327,7 @@ void StreamedMachine::discard() {
 void StreamedMachine::deliver_alarm(Lock& lock, const interpreter::Alarm& alarm) {
   discard();
   if (!device_.fault()) device_.switch_off();
+  is_off_due_ = true;
   stop_ = MachineState::Alarmed;
   lock.unlock();
   report_off();
@@ -336,6 +338,7 @@ void StreamedMachine::deliver_alarm(Lock& lock, const interpreter::Alarm& alarm)
 void StreamedMachine::end_abort(Lock& lock) {
   if (is_emergency_) return;
   is_aborting_ = false;
+  is_off_due_ = true;
   discard();
   stop_ = MachineState::Aborted;
   lock.unlock();

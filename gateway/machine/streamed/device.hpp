@@ -114,8 +114,11 @@ class Device {
   /// Spindle and coolant off, with everything executed and the program at its end by an alarm of
   /// its own.
   virtual void switch_off() = 0;
-  /// It hears what it is sent: a stop has switched spindle and coolant off.
+  /// It hears what it is sent.
   virtual bool is_connected() const = 0;
+  /// It has reported what shows that a stop, or `switch_off`, has switched spindle and coolant off,
+  /// and was sent nothing since.
+  virtual bool has_switched_off() const = 0;
 
   // -- what it does -------------------------------------------------------------------------------
   virtual bool is_moving() const = 0;

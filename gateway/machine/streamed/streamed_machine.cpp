@@ -99,6 +99,7 @@ void StreamedMachine::begin(const Position& at) {
   has_begun_ = is_allowed_ = is_held_by_override_ = false;
   is_override_hold_ = panel_.feed_override == 0 || panel_.rapid_override == 0;
   is_aborting_ = is_emergency_;
+  is_off_due_ = false;
   stop_ = MachineState::Idle;
   shown_ = {};
   origin_ = {};
@@ -173,6 +174,7 @@ void StreamedMachine::set_panel(const OperatorPanel& panel) {
     apply_overrides();
     if (is_emergency_ && !was_emergency) {
       if (!is_over()) is_aborting_ = true;
+      is_off_due_ = true;
       device_.stop(true, now());
     } else if (was_emergency && !is_emergency_) {
       device_.restart(now());
@@ -180,7 +182,7 @@ void StreamedMachine::set_panel(const OperatorPanel& panel) {
     hold_by_override();
     if (is_override_hold_ && device_.is_jogging()) device_.stop_jog(now());
   }
-  if (panel_.emergency_stop) report_off();
+  report_off();
   wake();
 }
 
@@ -196,13 +198,14 @@ void StreamedMachine::hold_by_override() {
   }
 }
 
-/// A device that was stopped has switched spindle and coolant off; one that is not there may not.
+/// A device that was stopped switches spindle and coolant off: when it has reported so, not before.
 void StreamedMachine::report_off() {
   interpreter::Spindle off;
   bool had_spindle = false, had_coolant = false;
   {
     const Lock lock(mutex_);
-    if (!device_.is_connected()) return;
+    if (!is_off()) return;
+    is_off_due_ = false;
     off.origin = origin_;
     had_spindle = std::exchange(shown_.spindle, off).state != interpreter::SpindleState::Off;
     had_coolant = std::exchange(shown_.flood, false);
@@ -324,6 +327,10 @@ MachineStatus StreamedMachine::status() const {
   const Lock lock(mutex_);
   const TextRules& rules = device_.rules();
   MachineStatus status = shown_;
+  if (is_off()) {
+    status.spindle = {};
+    status.flood = status.mist = false;
+  }
   status.state = current_state();
   status.position = minus(position_of(device_.position(), rules), status.lengths);
   status.target = status.position;

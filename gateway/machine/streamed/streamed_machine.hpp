@@ -111,6 +111,7 @@ class StreamedMachine : public MotionBackend {
   void apply_overrides();
   void hold_by_override();
   void report_off();
+  bool is_off() const { return is_off_due_ && device_.has_switched_off(); }
   MachineState current_state() const;
   Result<void> check_device() const;
   Result<void> begin_jog(const Jog& jog);
@@ -148,6 +149,7 @@ class StreamedMachine : public MotionBackend {
   bool is_single_block_ = false, is_emergency_ = false, is_aborting_ = false;
   bool is_override_hold_ = false;     ///< an override is 0: nothing begins
   bool is_held_by_override_ = false;  ///< and the device is held by nothing else
+  bool is_off_due_ = false;           ///< a stop switches spindle and coolant off
   interpreter::OverrideInhibit inhibit_;
   MachineState stop_ = MachineState::Idle;
   interpreter::StopKind stopped_at_{};

@@ -186,8 +186,8 @@ TEST(GrblMachine, AnAlarmOfTheProgramSwitchesTheSpindleOff) {
   shop.program.line(1, 0, 600);
   shop.program.thread(1, -10, 1.5);
   ASSERT_TRUE(shop.pass_until_over());
-  EXPECT_EQ(shop.machine.status().spindle.state, interpreter::SpindleState::Off);
-  shop.pass(1);
+  EXPECT_TRUE(shop.pass_until(
+      [&] { return shop.machine.status().spindle.state == interpreter::SpindleState::Off; }, 5));
   EXPECT_FALSE(shop.board.is_spindle_on());
 }
 

@@ -14,6 +14,9 @@ class GrblOperator : public testing::Test {
     ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 5; }));
   }
   void set(OperatorPanel panel) { shop.machine.set_panel(panel); }
+  bool is_spindle_shown() const {
+    return shop.machine.status().spindle.state != interpreter::SpindleState::Off;
+  }
   double moved_in(double seconds) {
     const double before = shop.board.traveled();
     shop.pass(seconds);
@@ -127,16 +130,40 @@ TEST_F(GrblOperator, NothingContinuesUnattendedAfterADoorWasOpen) {
   EXPECT_GT(moved_in(1), 1);
 }
 
-TEST_F(GrblOperator, TheEmergencyStopReportsSpindleAndCoolantOff) {
+TEST_F(GrblOperator, TheEmergencyStopReportsSpindleAndCoolantOffWhenTheBoardHasObeyed) {
   shop.begin();
   shop.program.spindle(1200);
   for (int i = 1; i <= 9; ++i) shop.program.line(i * 5, 0, 1200);
   ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 5; }));
+  shop.is_cut = true;
   set({.emergency_stop = true});
-  EXPECT_EQ(shop.machine.status().spindle.state, interpreter::SpindleState::Off);
+  shop.pass(0.3);
+  EXPECT_TRUE(is_spindle_shown()) << "it has not heard it";
+  EXPECT_EQ(std::ranges::count(shop.recorder.lines, "spindle"), 1);
+  shop.is_cut = false;
+  for (int i = 0; i < 5000 && is_spindle_shown(); ++i) {
+    shop.pass(0.001);
+    ASSERT_TRUE(is_spindle_shown() || !shop.board.is_spindle_on());
+  }
+  EXPECT_FALSE(is_spindle_shown());
+  shop.pass(0.1);
   EXPECT_EQ(std::ranges::count(shop.recorder.lines, "spindle"), 2);
-  shop.pass(1);
-  EXPECT_FALSE(shop.board.is_spindle_on());
+}
+
+TEST_F(GrblOperator, AnAlarmShowsTheSpindleOffWhenTheBoardHasObeyed) {
+  shop.begin();
+  shop.program.spindle(1200);
+  for (int i = 1; i <= 9; ++i) shop.program.line(i * 5, 0, 1200);
+  ASSERT_TRUE(shop.pass_until([&] { return shop.x() > 5; }));
+  shop.board.refuses_line = 1;
+  ASSERT_TRUE(shop.pass_until([&] { return shop.machine.state() == MachineState::Alarmed; }));
+  EXPECT_TRUE(is_spindle_shown());
+  shop.is_polled = false;  // the run is over
+  for (int i = 0; i < 5000 && is_spindle_shown(); ++i) {
+    shop.pass(0.001);
+    ASSERT_TRUE(is_spindle_shown() || !shop.board.is_spindle_on());
+  }
+  EXPECT_FALSE(is_spindle_shown());
 }
 
 TEST_F(GrblOperator, NothingBeginsBeforeWhatWasToldIsWritten) {
