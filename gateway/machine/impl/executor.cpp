@@ -14,7 +14,7 @@ Executor::Executor(const Parts& parts)
       spindle_(parts.limits.spindle) {}
 
 void Executor::begin(const interpreter::Position& at) {
-  is_held_ = is_aborting_ = hold_waits_ = skips_tap_ = is_jogging_ = false;
+  is_held_ = is_aborting_ = hold_waits_ = skips_tap_ = is_jogging_ = lacks_records_ = false;
   lock_ = {};
   handwheel_seconds_ = 0;
   discard();
@@ -54,6 +54,7 @@ void Executor::begin_next(const interpreter::Position& at) {
 
 double Executor::pass(double by, std::size_t max_actions) {
   double used = 0;
+  ask_for_records();
   look_ahead_again();
   for (;;) {
     if (motion_.is_active()) {
@@ -103,7 +104,7 @@ bool Executor::may_start() const {
 /// Axes that must come to rest continue into the next moves, and moves that cannot be held are
 /// executed to their end, beyond the budget.
 bool Executor::continues_regardless() const {
-  if (speed_ > 0) return is_held_ || is_aborting_;
+  if (speed_ > 0) return is_held_ || is_aborting_ || lacks_records_;
   return is_held_ && !queue_.empty() && delays_hold(queue_.front().lock);
 }
 
@@ -124,7 +125,8 @@ bool Executor::pass_dwell(double by, double& used) {
   return true;
 }
 
-/// False: what was reported before it cannot be written. From rest nothing begins then.
+/// False: what was reported before it cannot be written. From rest nothing begins then, and axes
+/// that run come to rest along the path.
 bool Executor::start_front() {
   Action& action = queue_.front();
   enter(action);
@@ -137,7 +139,11 @@ bool Executor::start_front() {
                           std::holds_alternative<Wait>(action.body) ||
                           std::holds_alternative<ProbeMarker>(action.body);
   if (takes_time) return_spindle();
-  if (takes_time && !sink_.on_motion_starts(origin_) && speed_ == 0) return false;
+  if (takes_time) lacks_records_ = !sink_.on_motion_starts(origin_);
+  if (lacks_records_ && speed_ == 0) {
+    lacks_records_ = false;
+    return false;
+  }
   if (const auto* move = std::get_if<Move>(&action.body)) {
     planner_.ensure(queue_, panel_);
     start(*move);
@@ -184,7 +190,7 @@ void Executor::finish_action() {
 void Executor::discard() {
   if (motion_.is_active()) at_ = position();
   motion_.stop();
-  is_dwelling_ = false;
+  is_dwelling_ = lacks_records_ = false;
   speed_ = 0;
   queue_.clear();
   queue_builder_.close();

@@ -114,6 +114,8 @@ class Executor {
   bool may_start() const;
   bool continues_regardless() const;
   bool delays_hold(const Lock& lock) const;
+  bool must_rest(const Lock& lock) const;
+  void ask_for_records();
   bool is_over() const;
   bool start_front();
   void enter(const Action& action);
@@ -175,6 +177,7 @@ class Executor {
 
   bool is_held_ = false, is_aborting_ = false;
   bool is_emergency_ = false;     ///< the abort is an emergency stop: nothing is switched on
+  bool lacks_records_ = false;    ///< the axes run, and what was reported cannot be written
   Lock lock_;                     ///< of the action begun last
   bool hold_waits_ = false;       ///< for the end of moves that cannot be held
   bool skips_tap_ = false;        ///< this tapping cycle is not done by handwheel

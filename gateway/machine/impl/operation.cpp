@@ -48,6 +48,18 @@ bool Executor::delays_hold(const Lock& lock) const {
   return hold_waits_ && lock.hold != FeedHoldInhibit::AtOnce;
 }
 
+bool Executor::must_rest(const Lock& lock) const {
+  if (is_aborting_ || (is_held_ && !delays_hold(lock))) return true;
+  return lacks_records_ && lock.hold == FeedHoldInhibit::AtOnce;
+}
+
+/// Of the move in which the axes come to rest until its records are written.
+void Executor::ask_for_records() {
+  if (!lacks_records_ || !motion_.is_active() || !sink_.on_motion_starts(origin_)) return;
+  lacks_records_ = false;
+  plan_motion_again();
+}
+
 void Executor::enter(const Action& action) {
   const Lock& lock = action.lock;
   const bool is_same_tap =
@@ -73,7 +85,7 @@ bool Executor::skips(const Action& action) const {
 MotionGoal Executor::goal(const Move& move) const {
   if (is_jogging_)
     return {.cruise = is_jog_stopping_ ? 0 : std::min(move.ceiling, move.speed), .exit = 0};
-  if (is_aborting_ || (is_held_ && !delays_hold(lock_))) return {.cruise = 0, .exit = 0};
+  if (must_rest(lock_)) return {.cruise = 0, .exit = 0};
   return {.cruise = move.wanted_speed(lock_.seen(panel_)), .exit = std::sqrt(move.exit_square)};
 }
 

@@ -132,6 +132,59 @@ TEST(Execution, NothingBeginsBeforeWhatWasToldIsWritten) {
   EXPECT_EQ(test.machine.state(), MachineState::Aborted);
 }
 
+// The axes run from move to move: they come to rest along the path, and continue by themselves.
+TEST(Execution, AxesThatRunComeToRestWhenWhatWasToldCannotBeWritten) {
+  TestMachine test;
+  test.program.line(0, 10, 1200);
+  test.program.output("a");
+  for (int i = 1; i <= 50; ++i) test.program.line(0, 10 + i, 1200);
+  test.machine.poll(Seconds{0.3});
+  ASSERT_GT(test.z(), 1);
+  test.recorder.is_disk_full = true;
+  test.run_all();
+  constexpr double kBraking = 0.2;  // mm, from 20 mm/s at 1000 mm/s^2
+  EXPECT_NEAR(test.z(), 10 + kBraking, 1e-6);
+  EXPECT_FALSE(test.machine.is_moving());
+  EXPECT_EQ(test.recorder.blocks.size(), 2u);
+  EXPECT_EQ(test.run_all(), 0);
+  test.recorder.is_disk_full = false;
+  test.run_all();
+  EXPECT_NEAR(test.z(), 60, 1e-9);
+  EXPECT_EQ(test.recorder.blocks.size(), 52u);
+}
+
+// Moves that are shorter than the distance to rest.
+TEST(Execution, AxesComeToRestOverShortMovesWhenWhatWasToldCannotBeWritten) {
+  TestMachine test;
+  for (int i = 1; i <= 400; ++i) test.program.line(0, 0.05 * i, 1200);
+  test.machine.poll(Seconds{0.3});
+  const double at = test.z();
+  ASSERT_GT(at, 1);
+  test.recorder.is_disk_full = true;
+  test.run_all();
+  EXPECT_GT(test.z(), at);
+  EXPECT_LT(test.z(), at + 0.05 + 0.2 + 1e-6);
+  test.machine.hold();
+  test.recorder.is_disk_full = false;
+  EXPECT_EQ(test.run_all(), 0) << "held by the operator";
+  EXPECT_TRUE(test.machine.resume());
+  test.run_all();
+  EXPECT_EQ(test.recorder.blocks.size(), 400u);
+}
+
+TEST(Execution, AThreadIsCutToItsEndWhenWhatWasToldCannotBeWritten) {
+  TestMachine test;
+  test.program.spindle(600);
+  test.program.line(0, 1, 600);
+  test.program.thread(0, 10, 1);
+  test.program.line(0, 30, 600);
+  test.machine.poll(Seconds{0.05});
+  test.recorder.is_disk_full = true;
+  test.run_all();
+  EXPECT_GE(test.z(), 10 - 1e-6);
+  EXPECT_LT(test.z(), 12);
+}
+
 TEST(Execution, BudgetOfActionsIsKept) {
   TestMachine test;
   for (int i = 1; i <= 100; ++i) test.program.line(0, i, 1200);
