@@ -152,11 +152,11 @@ Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {
     return refuse(*std::move(refusal));
   }
   if (command.action == CommandAction::Start) return start(command);
-  const bool is_hold = command.action == CommandAction::Hold;
-  if ((is_hold || command.action == CommandAction::Abort) && stop_jog("by command")) return {};
-  if (command.argument == dds::kJogAbort && command.action == CommandAction::Abort)
-    return refuse("nothing is jogged");
-  if ((is_hold || command.action == CommandAction::Abort) && stop_homing("by command")) return {};
+  const bool is_abort = command.action == CommandAction::Abort;
+  if (is_abort && command.argument == dds::kJogAbort)
+    return stop_jog("by command") ? Reply{} : refuse("nothing is jogged");
+  const bool ends_motion = is_abort || command.action == CommandAction::Hold;
+  if (ends_motion && stop_without_run("by command")) return {};
   if (auto refusal = panel_.refusal_without_consent(command)) return *refusal;
   if (command.action == CommandAction::SetPosition) return set_position(command);
   if (command.action == CommandAction::Playback) {
@@ -323,8 +323,7 @@ Reply Gateway::carry_out(const PanelCommand& command) {
       break;
   }
   const bool is_stop = command.verb == Verb::Hold || command.verb == Verb::Abort;
-  if (is_stop && stop_jog("at the machine's panel")) return {};
-  if (is_stop && stop_homing("at the machine's panel")) return {};
+  if (is_stop && stop_without_run("at the machine's panel")) return {};
   if (!run_.is_active()) return refuse("no run is active");
   switch (command.verb) {
     case Verb::CycleStart:

@@ -216,8 +216,7 @@ void StreamedMachine::report_off() {
 }
 
 void StreamedMachine::hold() {
-  if (is_jogging()) return stop_jog();
-  if (stop_homing()) return;
+  if (stop_without_program()) return;
   {
     const Lock lock(mutex_);
     is_held_by_override_ = false;
@@ -251,8 +250,7 @@ bool StreamedMachine::continue_unattended() {
 }
 
 void StreamedMachine::abort() {
-  if (is_jogging()) return stop_jog();
-  if (stop_homing()) return;
+  if (stop_without_program()) return;
   {
     const Lock lock(mutex_);
     if (is_over() || is_aborting_) return;
@@ -275,6 +273,13 @@ bool StreamedMachine::stop_homing() {
     device_.stop_homing(now());
   }
   wake();
+  return true;
+}
+
+/// False: nothing moves without a program.
+bool StreamedMachine::stop_without_program() {
+  if (!is_jogging()) return stop_homing();
+  stop_jog();
   return true;
 }
 

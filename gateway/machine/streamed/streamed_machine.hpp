@@ -87,6 +87,7 @@ class StreamedMachine : public MotionBackend {
 
  private:
   void set_active(bool is_active);
+  bool stop_without_program();
   bool may_be_ahead(double seconds);
   bool is_over() const;
   bool may_begin() const;
