@@ -1,14 +1,6 @@
-// A restart that meets faults, other hands and damage: nothing moves, the reason is named, and it
-// can be stopped.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <fstream>
-#include <random>
-
-#include "gateway/interpreter/core/dialects.hpp"
-#include "tests/unit/gateway/app/restart/restart_fixture.hpp"
+// A restart that meets faults and other hands: nothing moves, the reason is named, and it can be
+// stopped.
+#include "tests/unit/gateway/app/restart/restart_faults.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -19,91 +11,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-const std::string kProgram =
-    "O0540\nT1 M06\nG90 G00 X0 Y0 Z50.\nM03 S900\nM08\n#1=1\nN10 WHILE[#1LE6]DO1\nN20 G01 "
-    "X[#1*10] F600\nN30 Y10.\nM98 P0561\n#1=#1+1\nEND1\nN40 T2 M06\nN50 G01 Z-5.\nX0\nM00\nN60 "
-    "Y0\nM98 P0562\nN70 X90.\nM30\n";
-const std::string kCalled = "O0561\nG91 Z-1.\nZ1.\nG90 M99\n";
-const std::string kCalledLater = "O0562\nG91 Z-2.\nZ2.\nG90 M99\n";
-
-class RestartFaults : public testing::Test {
- protected:
-  /// Under which the run was executed.
-  PresentState unchanged(storage::sqlite::Database& database) const {
-    const auto stored = report::CheckpointStore::find(database, run).value();
-    PresentState now;
-    now.revision = stored.run.revision;
-    now.size = stored.run.size;
-    now.control = stored.run.control;
-    now.conditions = decode_conditions(run, stored.conditions).value();
-    now.memory = decode_ending(run, stored.ending)->memory;
-    return now;
-  }
-  RestartFaults() : shop(interpreter::kFanucDialect, {}, "20x") {
-    shop.set_checkpoint_interval(std::chrono::milliseconds(200));
-    shop.push("P", kProgram);
-    shop.loader = [this](std::string_view name) -> std::optional<std::string> {
-      for (const auto& [number, text] : called) {
-        if (name.ends_with(number)) return text;
-      }
-      return std::nullopt;
-    };
-    shop.restart_gateway();
-  }
-  /// Up to the stop before N60.
-  void run_to_stop() {
-    shop.path.clear();
-    ASSERT_TRUE(shop.start_program("P").accepted);
-    run = shop.last_run();
-    ASSERT_TRUE(shop.run_until(
-        [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
-  }
-  void abort() {
-    ASSERT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
-    ASSERT_TRUE(shop.run_on());
-    ASSERT_EQ(shop.last_end().outcome, RunOutcome::Aborted);
-  }
-  void abort_at_stop() {
-    run_to_stop();
-    before = shop.path;
-    abort();
-    shop.path.clear();
-  }
-  nlohmann::json restart(const std::string& at = "executed") {
-    shop.path.clear();
-    return shop.begin_restart("P", run, at);
-  }
-  std::string reason() const {
-    return shop.start_answer.accepted ? shop.last_end().reason : shop.start_answer.reason;
-  }
-  /// A restart that begins, and cannot look through the program.
-  void restart_without_text() {
-    shop.serves_text = false;
-    dds::Command start = shop.start_command("P");
-    start.argument = "restart=" + run;
-    ASSERT_TRUE(shop.send(start).accepted);
-    second = start.run;
-    ASSERT_TRUE(shop.run_until([&] { return says("waiting for its text"); }));
-  }
-  bool says(const std::string& text) const {
-    return shop.status && shop.status->message.find(text) != std::string::npos;
-  }
-  bool has_ended(std::size_t runs) const { return shop.count(dds::RecordKind::RunEnded) == runs; }
-  /// As after an undisturbed restart.
-  void completes() {
-    const auto report = restart();
-    ASSERT_TRUE(report.is_object()) << reason();
-    ASSERT_TRUE(shop.cycle_start());
-    ASSERT_TRUE(shop.run_on());
-    EXPECT_EQ(shop.last_end().outcome, RunOutcome::Completed) << shop.last_end().reason;
-  }
-
-  std::map<std::string, std::string> called{{"561", kCalled}, {"562", kCalledLater}};
-  RestartFixture shop;
-  std::string run, second;
-  RestartFixture::Path before;
-};
 
 TEST_F(RestartFaults, ALinkCutWhileLookingThroughIsNamedAndWaits) {
   abort_at_stop();
@@ -268,11 +175,11 @@ TEST_F(RestartFaults, ALostPositionIsNotContinuedFrom) {
 
 TEST_F(RestartFaults, ACalledProgramThatChangedIsNamed) {
   abort_at_stop();
-  called["561"] = kCalled + "(the same moves)\n";
+  called["561"] = kCalledProgram + "(the same moves)\n";
   EXPECT_TRUE(restart().is_null());
   EXPECT_THAT(reason(), AllOf(HasSubstr("the content of called program"), HasSubstr("561")));
   EXPECT_THAT(shop.path, IsEmpty());
-  called["561"] = kCalled;
+  called["561"] = kCalledProgram;
   called["562"] = kCalledLater + "(read ahead)\n";
   EXPECT_TRUE(restart("N20").is_null()) << "interpreted, not executed";
   EXPECT_THAT(reason(), AllOf(HasSubstr("the content of called program"), HasSubstr("562")));
@@ -280,7 +187,7 @@ TEST_F(RestartFaults, ACalledProgramThatChangedIsNamed) {
   called.erase("561");
   EXPECT_TRUE(restart().is_null());
   EXPECT_THAT(reason(), HasSubstr("is not in the library any more"));
-  called["561"] = kCalled;
+  called["561"] = kCalledProgram;
   completes();
 }
 
@@ -294,7 +201,7 @@ TEST_F(RestartFaults, ACalledProgramThatChangedIsNamedAfterAKillInItsFirstBlock)
   ASSERT_TRUE(shop.run_until_killed_after(first_in_called));
   ASSERT_TRUE(shop.run_until([&] { return has_ended(1); }));
   ASSERT_EQ(shop.last_end().executed, first_in_called);
-  called["561"] = kCalled + "(the same moves)\n";
+  called["561"] = kCalledProgram + "(the same moves)\n";
   EXPECT_TRUE(restart().is_null());
   EXPECT_THAT(reason(), AllOf(HasSubstr("the content of called program"), HasSubstr("561")));
 }
@@ -339,97 +246,6 @@ TEST_F(RestartFaults, AFullDiskStopsCheckpointsAndNotTheMachine) {
   const auto kept = report::CheckpointStore::list(database, run).value();
   ASSERT_FALSE(kept.empty());
   EXPECT_LT(kept.back().executed, kBlocks / 2) << "the disk was not full";
-}
-
-int flips() {
-  const char* wanted = std::getenv("DRIPLINE_RESTART_FLIPS");
-  return wanted != nullptr ? std::atoi(wanted) : 60;
-}
-
-class DamagedFile : public RestartFaults {
- protected:
-  void SetUp() override {
-    abort_at_stop();
-    executed = shop.last_end().executed;
-    shop.restart_gateway();  // the simulated axes are at their start again
-    const auto report = restart();
-    ASSERT_TRUE(report.is_object()) << reason();
-    ASSERT_TRUE(shop.cycle_start());
-    ASSERT_TRUE(shop.run_on());
-    right = shop.path;
-    // The same again, up to where the restart began: `run` is the run that was cut off.
-    abort_at_stop();
-    shop.close_gateway();
-    std::ifstream in(file(), std::ios::binary);
-    bytes.assign(std::istreambuf_iterator<char>(in), {});
-    records = shop.records;
-  }
-  std::filesystem::path file() const { return shop.folder() / "outbox.sqlite"; }
-  /// Nothing reaches the machine, or what is right.
-  void restart_from(const std::string& damaged) {
-    shop.close_gateway();
-    for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(file().string() + suffix);
-    std::ofstream(file(), std::ios::binary | std::ios::trunc) << damaged;
-    shop.records = records;
-    try {
-      shop.restart_gateway();
-    } catch (const std::exception&) {
-      ++unopened;  // dncgw ends with the fault in its log
-      return;
-    }
-    nlohmann::json report;
-    try {
-      report = restart();
-    } catch (const std::out_of_range&) {
-      // No answer at all: whether the command was carried out before cannot be looked up.
-    }
-    if (!report.is_object()) {
-      ++refused;
-      // A report that cannot be kept is none that the operator has seen.
-      if (!shop.path.empty()) {
-        EXPECT_THAT(shop.panel("cycle-start"), HasSubstr("reports cannot be kept"));
-        EXPECT_FALSE(shop.cycle_start());
-      }
-      EXPECT_EQ(shop.status->executed, 0u);
-      return;
-    }
-    if (report["after"]["block"] != executed || report["proof"]["path"] != "equal") {
-      ADD_FAILURE() << report.dump();
-      return;
-    }
-    ASSERT_TRUE(shop.cycle_start());
-    (void)shop.run_until([&] { return shop.path.size() >= right.size(); });
-    EXPECT_EQ(shop.path, right);
-    ++completed;
-  }
-
-  std::uint64_t executed = 0;
-  RestartFixture::Path right;
-  std::string bytes;
-  std::vector<dds::Record> records;
-  int unopened = 0, refused = 0, completed = 0;
-};
-
-TEST_F(DamagedFile, AFlippedBitMovesNothingThatWasNotProved) {
-  std::mt19937 random{20261123};
-  for (int i = 0; i < flips() && !HasFailure(); ++i) {
-    std::string damaged = bytes;
-    auto at = std::uniform_int_distribution<std::size_t>(0, bytes.size() - 1)(random);
-    while (bytes[at] == 0) at = (at + 1) % bytes.size();  // most of the file is empty
-    damaged[at] = static_cast<char>(damaged[at] ^ (1 << (random() % 8)));
-    SCOPED_TRACE(at);
-    restart_from(damaged);
-  }
-  std::printf("%zu bytes: %d not opened, %d refused, %d completed\n", bytes.size(), unopened,
-              refused, completed);
-}
-
-TEST_F(DamagedFile, ATruncatedFileMovesNothing) {
-  for (std::size_t part = 1; part < 8 && !HasFailure(); ++part) {
-    SCOPED_TRACE(part);
-    restart_from(bytes.substr(0, bytes.size() * part / 8));
-  }
-  EXPECT_EQ(completed, 0);
 }
 
 }  // namespace
