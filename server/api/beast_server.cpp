@@ -73,6 +73,7 @@ Result<ssl::context> tls_context(const TlsFiles& files) {
   return context;
 }
 
+constexpr auto kLastAnswers = 2s;          ///< for the writing of what was answered, at the end
 constexpr auto kOutOfDescriptors = 100ms;  ///< pause before the next attempt
 constexpr auto kLogInterval = 60s;
 constexpr std::uint64_t kLogBurst = 5;  ///< lines about refused connections in each interval
@@ -135,21 +136,22 @@ class BeastServer final : public HttpServer {
     thread_ = std::thread([this] { serve(); });
   }
 
-  /// First closes the listener and the connections, then waits for running handlers, then ends what
-  /// waited for them.
+  /// First closes the listener and the connections that no answer is owed to, then waits for
+  /// running handlers and, for kLastAnswers, until what they answer is written.
   // NOLINTNEXTLINE(bugprone-exception-escape): without memory to post a handler it cannot end
   ~BeastServer() override {
     asio::post(shared_.io, [this] {
       shared_.is_stopping = true;
       error_code ignored;
       acceptor_.close(ignored);
-      for_each_session([](HttpSession& session) { session.close(); });
+      for_each_session([](HttpSession& session) { session.drain(); });
     });
     shared_.pool.stop();
     shared_.commands.wait();
     asio::post(shared_.io, [this] {
       for_each_session([](HttpSession& session) { session.abandon(); });
       work_.reset();
+      await_last_answers();
     });
     thread_.join();
   }
@@ -162,6 +164,16 @@ class BeastServer final : public HttpServer {
     for (const auto& [id, weak] : shared_.sessions) {
       if (const auto session = weak.lock()) action(*session);
     }
+  }
+
+  /// The handlers have answered, and what they answered has been posted here before.
+  void await_last_answers() {
+    if (shared_.sessions.empty()) return;
+    shared_.last_answers.expires_after(kLastAnswers);
+    shared_.last_answers.async_wait([this](const error_code& ec) {
+      if (ec) return;
+      for_each_session([](HttpSession& session) { session.close(); });
+    });
   }
 
   /// The failure of one connection (no memory, a defect of ours) must not end the others.

@@ -81,7 +81,8 @@ class HttpServer {
   /// can read), Io (address in use, certificate unreadable).
   static Result<std::unique_ptr<HttpServer>> start(const HttpOptions& options,
                                                    HttpHandlers handlers);
-  /// Stops accepting, closes the connections, waits for running handlers.
+  /// Stops accepting and reading: idle connections are closed, and so are event streams and
+  /// requests that are not whole. Waits for running handlers; what they answer is sent, within 2 s.
   virtual ~HttpServer() = default;
   virtual std::uint16_t port() const = 0;
 };

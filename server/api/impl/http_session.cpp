@@ -44,6 +44,10 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
         bodies_({shared, *transport_, reader_, woken_, is_closed_}),
         address_(transport_->peer_address()) {}
 
+  void drain() override {
+    keeps_alive_ = false;
+    if (!is_owed_) close();
+  }
   void close() override {
     is_closed_ = true;
     transport_->close();
@@ -51,7 +55,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   }
   void abandon() override {
     is_abandoned_ = true;
-    close();
+    woken_.set();
   }
 
   awaitable<void> serve(Seat& seat) {
@@ -62,7 +66,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       seat.set(is_known_ ? State::Idle : State::Opening);
       continues = co_await serve_request(is_first, seat);
     }
-    if (may_continue()) co_await transport_->say_goodbye(kFarewell);
+    if (!is_closed_) co_await transport_->say_goodbye(kFarewell);
   }
 
  private:
@@ -117,10 +121,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     BodyMemory::Share share;
     if (!parser.is_done()) {
       const auto refused = co_await bodies_.read(parser, *request, share);
-      if (refused) {
-        if (refused->status != 0) co_await refuse(*refused);
-        co_return false;
-      }
+      if (refused && refused->status != 0) co_await refuse(*refused);
+      if (refused) co_return false;
       request->body = std::move(parser.get().body());
     }
     if (!is_kept && !seat.begin_request(may_be_stop)) {
@@ -128,8 +130,20 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       co_await refuse(refused);
       co_return false;
     }
-    auto answer = co_await handle(*std::move(request));
+    if (!may_continue()) co_return false;
+    is_owed_ = true;
+    const bool continues = co_await answer_request(*std::move(request), seat);
+    is_owed_ = false;
+    co_return continues;
+  }
+
+  /// True: another request may follow.
+  awaitable<bool> answer_request(Request request, Seat& seat) {
+    auto answer = co_await handle(std::move(request));
     if (!answer) co_return false;
+    is_owed_ = !answer->source && !answer->events && !answer->timed;  // those end with the server
+    if (!is_owed_ && shared_.is_stopping)
+      answer = refusal(503, Errc::Busy, "the server is stopping");
     if (answer->events) {
       co_await stream_events(*std::move(answer), seat);
       co_return false;
@@ -186,7 +200,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       return shared_.handlers.handle(std::move(*held));
     };
     auto answer = co_await on_worker<Response>(std::move(work), thread);
-    if (!answer && may_continue()) {
+    if (!answer && !is_closed_) {
       answer = refusal(503, Errc::Busy, "the server could not take this request now");
     }
     co_return answer;
@@ -345,6 +359,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   const std::string address_;                               ///< of the client
   std::optional<identity::ClientCertificate> certificate_;  ///< of the client, verified
   bool is_known_ = false;  ///< it has sent what is not for strangers
+  bool is_owed_ = false;   ///< a request is carried out, and its answer is not written yet
   bool is_closed_ = false;
   bool is_abandoned_ = false;
   bool is_answered_ = false;
@@ -362,6 +377,7 @@ awaitable<void> run(HttpShared& shared, std::shared_ptr<Session> session, Seat s
   }
   session->close();
   shared.sessions.erase(seat.id());
+  if (shared.sessions.empty()) shared.last_answers.cancel();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <map>
 #include <memory>
 
@@ -35,8 +36,10 @@ struct HttpShared {
   ConnectionTable table;
   BodyMemory body_memory;
   std::map<ConnectionTable::Id, std::weak_ptr<HttpSession>> sessions;
-  bool is_stopping = false;
+  bool is_stopping = false;       ///< nothing is read any more; what was taken is answered
   boost::asio::io_context io{1};  ///< after the members that its coroutines use
+  boost::asio::steady_timer last_answers{
+      io};  ///< while the server stops; ends with the last session
   machines::WorkerPool pool;
   CommandThreads commands;
 };
@@ -45,9 +48,11 @@ struct HttpShared {
 class HttpSession {
  public:
   virtual ~HttpSession() = default;
+  /// The server stops: closes, unless an answer is owed. That is sent, and is the last one.
+  virtual void drain() = 0;
   /// Ends its waits on the network.
   virtual void close() = 0;
-  /// No worker will answer it.
+  /// No worker will answer it any more: its waits for one end.
   virtual void abandon() = 0;
 };
 

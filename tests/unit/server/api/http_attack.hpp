@@ -23,6 +23,12 @@ inline std::string get(std::string_view path, std::string_view fields = kToken) 
   return fmt::format("GET {} HTTP/1.1\r\nHost: localhost\r\n{}\r\n", path, fields);
 }
 
+inline std::string post(std::string_view path, std::string_view body,
+                        std::string_view fields = kToken) {
+  return fmt::format("POST {} HTTP/1.1\r\nHost: h\r\n{}Content-Length: {}\r\n\r\n{}", path, fields,
+                     body.size(), body);
+}
+
 /// Holds handlers until it is opened.
 class Gate {
  public:

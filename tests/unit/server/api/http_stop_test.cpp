@@ -11,10 +11,6 @@ using namespace std::chrono_literals;
 constexpr std::string_view kOtherToken = "Authorization: Bearer other\r\n";
 constexpr std::string_view kHold = R"({"action":"hold"})";
 
-std::string post(std::string_view path, std::string_view body, std::string_view fields = kToken) {
-  return fmt::format("POST {} HTTP/1.1\r\nHost: h\r\n{}Content-Length: {}\r\n\r\n{}", path, fields,
-                     body.size(), body);
-}
 /// The head, and the first byte of its body.
 std::string slow_post(std::string_view path, std::size_t size, std::string_view fields = kToken) {
   return fmt::format("POST {} HTTP/1.1\r\nHost: h\r\n{}Content-Length: {}\r\n\r\n{{", path, fields,
