@@ -9,6 +9,7 @@
 
 #include "gateway/line/block_ledger.hpp"
 #include "gateway/line/text_source.hpp"
+#include "protocol/base/clock.hpp"
 #include "protocol/wire/discipline.hpp"
 
 namespace dripline::line {
@@ -71,6 +72,7 @@ struct Incoming {
   bool is_first = false;
   /// Ended: by silence, so its last line may not be whole. Damaged: text is missing.
   bool is_cut = false;
+  SteadyTime arrived{};  ///< at the line, before it waited for its listener
 };
 
 /// What a session asks of its owner. Called on the line's thread; must return soon.

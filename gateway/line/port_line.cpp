@@ -288,6 +288,7 @@ void PortLine::on_sent(const SendEnd& end) {
 
 void PortLine::on_incoming(Incoming incoming) {
   refresh();  // a listener that acts on the end must not find the line receiving
+  incoming.arrived = parts_.clock.steady_now();
   // Destroyed lines keep nothing up: the text is kept all the same.
   parts_.post([weak = weak_from_this(), on_incoming = parts_.listener.on_incoming,
                incoming = std::move(incoming)] {

@@ -93,7 +93,11 @@ void GatewayLines::on_status(const dds::Status& status) {
     if (has_call) line->call = call->number;
   }
   if (has_upload) line->strand.post([this, line, upload = *upload] { fetch_upload(line, upload); });
-  if (has_call) line->strand.post([this, line, call = *call] { handle_call(line, call); });
+  if (has_call) {
+    line->strand.post([this, line, call = *call, asked = parts_.clock.steady_now()] {
+      handle_call(line, call, asked);
+    });
+  }
   if (!line->waits_for_end) return;
   line->strand.post([line] {
     if (!line->requests) return;
@@ -167,7 +171,13 @@ std::string GatewayLines::control_of(const std::string& machine) const {
   return known ? known->control : std::string();
 }
 
-void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::LineCall& call) {
+Result<void> GatewayLines::check_reset(const std::string& name) const {
+  const auto view = port(name);
+  return view ? parts_.resets.check(*view, "") : fail(view.error());
+}
+
+void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::LineCall& call,
+                               SteadyTime asked) {
   const auto view = port(line->name);
   if (!view) return;
   const bool is_known =
@@ -177,7 +187,8 @@ void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::Lin
     line->offer = view->settings.offer;
     line->reply = call.reply;
     line->at_control =
-        std::make_shared<GatewayAtControl>(line->name, parts_.ask, parts_.machines, line->strand);
+        std::make_shared<GatewayAtControl>(line->name, parts_.ask, parts_.machines, line->strand,
+                                           [this, name = line->name] { return check_reset(name); });
     line->requests = std::make_unique<RemoteRequestHandler>(RemoteRequestHandler::Parts{
         .store = parts_.store,
         .releases = parts_.releases,
@@ -193,13 +204,13 @@ void GatewayLines::handle_call(const std::shared_ptr<Line>& line, const dds::Lin
   line->at_control->begin(call.number);
   switch (call.action) {
     case dds::LineCallAction::Send:
-      return line->requests->carry_out(line::RuleAction::Send, call.argument);
+      return line->requests->carry_out(line::RuleAction::Send, call.argument, asked);
     case dds::LineCallAction::Directory:
-      return line->requests->carry_out(line::RuleAction::Directory, call.argument);
+      return line->requests->carry_out(line::RuleAction::Directory, call.argument, asked);
     case dds::LineCallAction::Restart:
-      return line->requests->carry_out(line::RuleAction::Restart, call.argument);
+      return line->requests->carry_out(line::RuleAction::Restart, call.argument, asked);
     case dds::LineCallAction::NextJob:
-      return line->requests->carry_out(line::RuleAction::NextJob, call.argument);
+      return line->requests->carry_out(line::RuleAction::NextJob, call.argument, asked);
     case dds::LineCallAction::Program:
       line->requests->answer(
           {.kind = wire::TransferRequest::Kind::SendProgram, .name = call.argument});

@@ -63,7 +63,9 @@ class GatewayLines {
   PortView show(const machines::MachineView& machine, const dds::LineStatus& line) const;
   void fetch_upload(const std::shared_ptr<Line>& line, const dds::LineUpload& upload);
   Result<std::string> store_upload(const std::string& machine, const dds::LineUpload& upload);
-  void handle_call(const std::shared_ptr<Line>& line, const dds::LineCall& call);
+  void handle_call(const std::shared_ptr<Line>& line, const dds::LineCall& call, SteadyTime asked);
+  /// Errors: those of ResetGate::check; NotFound.
+  Result<void> check_reset(const std::string& name) const;
   std::string control_of(const std::string& machine) const;
 
   const Parts parts_;

@@ -130,7 +130,7 @@ void LineMachines::start_later(const machines::StartRequest& request, Started st
               .started = std::move(started),
               .given = request.given.value_or(clock_.steady_now()),
               .wire_name = wire_name,
-              .is_asked_for = true});
+              .is_awaited = !request.given});
 }
 
 void LineMachines::post_start(Start start) {
@@ -142,7 +142,7 @@ void LineMachines::post_start(Start start) {
 }
 
 void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& start) {
-  const auto& [request, started, given, wire_name, is_asked_for] = start;
+  const auto& [request, started, given, wire_name, is_awaited] = start;
   const LineView port = line->view();
   if (!port.is_open) {
     return started(fail(Errc::Timeout, "machine '{}' is not connected: port {} is not open: {}",
@@ -154,10 +154,8 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& sta
     return started(
         fail(Errc::Busy, "port {} is busy: it is {}", port.names.name, what_it_does(port)));
   }
-  if (!is_asked_for) {
-    if (auto ready = resets_.check(port, port.names.name); !ready)
-      return started(fail(ready.error()));
-  }
+  if (auto ready = resets_.check(port, port.names.name); !ready)
+    return started(fail(ready.error()));
   if (auto fits = check_protocol(store_.setups, request.machine, port.settings.flow); !fits) {
     return started(fail(fits.error()));
   }
@@ -182,7 +180,7 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line, const Start& sta
 Result<void> LineMachines::send(PortLine& line, const Start& start, const storage::Run& run,
                                 SendJob job) {
   using dds::CommandAction;
-  if (!start.is_asked_for) {
+  if (!start.is_awaited) {
     // After this time its sender has got "the outcome is unknown".
     auto soon = machines::check_age(run.machine, CommandAction::Start, start.given,
                                     clock_.steady_now(), kAnswerLimit);

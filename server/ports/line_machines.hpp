@@ -43,9 +43,9 @@ class LineMachines final : public machines::MachineControl {
   Result<machines::PositionAnswer> position(const machines::PositionRequest& request) override;
   Result<machines::JogAnswer> jog(const machines::JogRequest& request) override;
 
-  /// The same as `start` for callers that must not wait, and for what is asked for at the control,
-  /// which is in no program then: `started` is called on the machine's strand. `wire_name` is what
-  /// the control calls the program; empty: as the library does.
+  /// The same as `start` for callers that must not wait: `started` is called on the machine's
+  /// strand. Without `given` the control asks for it by its protocol, and waits. `wire_name` is
+  /// what the control calls the program; empty: as the library does.
   void start_later(const machines::StartRequest& request, Started started,
                    const std::string& wire_name = "");
   /// On the strand of that line. `stored`: the run's end is in the store.
@@ -63,7 +63,7 @@ class LineMachines final : public machines::MachineControl {
     Started started;
     SteadyTime given;  ///< to the server
     std::string wire_name = {};
-    bool is_asked_for = false;  ///< at the control
+    bool is_awaited = false;  ///< the control waits for it, however long
   };
   void post_start(Start start);
   void begin(const std::shared_ptr<PortLine>& line, const Start& start);

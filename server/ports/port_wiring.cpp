@@ -39,6 +39,12 @@ class PortAtControl final : public RequestedLine {
     const auto line = directory_.line_of(machine_);
     return line && line->view().request.has_value();
   }
+  Result<void> check_reset() const override {
+    const auto line = directory_.line_of(machine_);
+    if (!line) return {};
+    const LineView port = line->view();
+    return machines_.resets().check(port, port.names.name);
+  }
   void accept_receive(const std::string& name) override {
     if (const auto line = directory_.line_of(machine_)) line->accept_receive(name);
   }

@@ -111,7 +111,7 @@ void InboundHandler::note(const std::string& words) {
 }
 
 void InboundHandler::carry_out(line::RuleAction action, const std::string& argument) {
-  calls_.carry_out(action, argument);
+  calls_.carry_out(action, argument, arrived_);
 }
 
 }  // namespace dripline::ports

@@ -36,6 +36,7 @@ class InboundHandler final : private line::InboundSink {
 
   /// `kept` is called when the text is stored, or needs not be.
   void take(const line::Incoming& incoming, std::function<void()> kept) {
+    arrived_ = incoming.arrived;
     router_.take(incoming, std::move(kept));
   }
   void answer(const wire::TransferRequest& request) { calls_.answer(request); }
@@ -74,6 +75,7 @@ class InboundHandler final : private line::InboundSink {
   line::InboundRouter router_;
   std::optional<UploadedProgram> program_;
   std::string run_;
+  SteadyTime arrived_{};  ///< what is taken
 };
 
 }  // namespace dripline::ports

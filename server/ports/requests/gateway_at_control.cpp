@@ -34,7 +34,8 @@ void GatewayAtControl::start_later(const machines::StartRequest& request, Starte
                                    const std::string&) {
   tell(dds::LineAction::Done, "", "");
   strand_.post([self = shared_from_this(), request, started = std::move(started)] {
-    started(self->machines_.start(request));
+    const auto ready = self->check_reset();
+    started(ready ? self->machines_.start(request) : fail(ready.error()));
   });
 }
 

@@ -22,17 +22,19 @@ class GatewayAtControl final : public RequestedLine,
                                public std::enable_shared_from_this<GatewayAtControl> {
  public:
   GatewayAtControl(std::string machine, AskLine ask, machines::MachineControl& machines,
-                   Strand strand)
+                   Strand strand, std::function<Result<void>()> check_reset)
       : machine_(std::move(machine)),
         ask_(std::move(ask)),
         machines_(machines),
-        strand_(std::move(strand)) {}
+        strand_(std::move(strand)),
+        check_reset_(std::move(check_reset)) {}
 
   void begin(std::uint64_t call) { call_ = call; }
 
   void note(const std::string& words) override;
   void refuse(const std::string& why) override { tell(dds::LineAction::Refuse, "", why); }
   bool is_asked() const override;
+  Result<void> check_reset() const override { return check_reset_(); }
   void accept_receive(const std::string&) override {}  // the gateway takes it by itself
   void send(SendJob job) override;
   void start_later(const machines::StartRequest& request, Started started,
@@ -45,6 +47,7 @@ class GatewayAtControl final : public RequestedLine,
   const AskLine ask_;
   machines::MachineControl& machines_;
   const Strand strand_;
+  const std::function<Result<void>()> check_reset_;
   std::uint64_t call_ = 0;
 };
 

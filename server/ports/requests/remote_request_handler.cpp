@@ -16,6 +16,7 @@
 #include "server/library/control_catalog.hpp"
 #include "server/library/job_queue.hpp"
 #include "server/machines/start_point.hpp"
+#include "server/machines/stop_order.hpp"
 #include "server/ports/programs/broken_program.hpp"
 #include "server/ports/programs/program_stream.hpp"
 #include "storage/store.hpp"
@@ -107,9 +108,19 @@ Result<std::string> RemoteRequestHandler::find_offered(const std::string& name) 
               name);
 }
 
-void RemoteRequestHandler::carry_out(line::RuleAction action, const std::string& argument) {
+/// Whoever asked may not be at the control any more.
+Result<void> RemoteRequestHandler::check_age() const {
+  if (!asked_) return {};
+  return machines::check_age(parts_.machine, dds::CommandAction::Start, *asked_,
+                             parts_.clock.steady_now());
+}
+
+void RemoteRequestHandler::carry_out(line::RuleAction action, const std::string& argument,
+                                     SteadyTime asked) {
+  asked_ = asked;
   process::log_info("request from the control machine={} action={} argument={}", parts_.machine,
                     to_string(action), argument);
+  if (auto soon = check_age(); !soon) return refuse(soon.error().what, false);
   if (action == line::RuleAction::Send) send(argument, false);
   if (action == line::RuleAction::Directory) send_listing(false);
   if (action == line::RuleAction::Restart) restart(argument);
@@ -118,6 +129,7 @@ void RemoteRequestHandler::carry_out(line::RuleAction action, const std::string&
 
 void RemoteRequestHandler::answer(const wire::TransferRequest& request) {
   using Kind = wire::TransferRequest::Kind;
+  asked_.reset();
   if (request.kind == Kind::TakeProgram) {
     offers_.reset();
     return parts_.line->accept_receive(request.name);
@@ -177,6 +189,7 @@ void RemoteRequestHandler::send(const std::string& name, bool is_request) {
                             .program = *program,
                             .revision = {},
                             .author = kRequestAuthor,
+                            .given = asked_,
                             .before = note_start("run.start")},
                            on_started(is_request), is_request ? name : "");
 }
@@ -200,6 +213,7 @@ void RemoteRequestHandler::restart(const std::string& block) {
                             .head = choice == "HEAD"  ? machines::StartHead::Send
                                     : choice == "SET" ? machines::StartHead::Set
                                                       : machines::StartHead::Ask,
+                            .given = asked_,
                             .before = note_start("run.restart")},
                            on_started(false), "");
 }
@@ -236,6 +250,7 @@ void RemoteRequestHandler::start_next_job() {
                             .program = job->program,
                             .revision = job->revision,
                             .author = kRequestAuthor,
+                            .given = asked_,
                             .job = job->id,
                             .before = note_start("run.start")},
                            on_started(false), "");
@@ -358,6 +373,8 @@ void RemoteRequestHandler::refuse(const std::string& why, bool is_request,
   process::log_warning("request from the control refused machine={}: {}", parts_.machine, why);
   parts_.line->note("refused: " + why);
   if (is_request) return parts_.line->refuse(why);
+  // No text goes to a control that expects none, or may be in the middle of another.
+  if (!check_age() || !parts_.line->check_reset()) return;
   report({why, library::control_words(control(), refusal)});
 }
 

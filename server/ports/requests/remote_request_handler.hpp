@@ -45,8 +45,9 @@ class RemoteRequestHandler {
   explicit RemoteRequestHandler(Parts parts)
       : parts_(std::move(parts)), offered_(parts_.store.audit, parts_.clock, parts_.machine) {}
 
-  /// Send, Directory, Restart or NextJob.
-  void carry_out(line::RuleAction action, const std::string& argument);
+  /// Send, Directory, Restart or NextJob; `asked`: when the control's text arrived. One that waited
+  /// for longer than an operator's command may is left without an answer.
+  void carry_out(line::RuleAction action, const std::string& argument, SteadyTime asked);
   /// A request of the protocol itself.
   void answer(const wire::TransferRequest& request);
   /// What `answer` put on the line has been sent, or not.
@@ -83,6 +84,7 @@ class RemoteRequestHandler {
 
  private:
   void leave(const wire::TransferRequest& request) const;
+  Result<void> check_age() const;
   void send(const std::string& name, bool is_request);
   void restart(const std::string& block);
   void repeat();
@@ -119,6 +121,7 @@ class RemoteRequestHandler {
       false;  ///< the tape is asked for again, and its run's end is not stored yet
   bool is_sent_since_ = false;  ///< a transfer went through after the last run
   SteadyTime asked_at_{};
+  std::optional<SteadyTime> asked_;  ///< by a text; absent: by the protocol
 };
 
 }  // namespace dripline::ports

@@ -252,18 +252,6 @@ TEST_F(BrokenProgramTest, OfAGatewaysLineIsWhatItReports) {
   EXPECT_TRUE(gate.check(view, ""));
 }
 
-/// Who can ask is at the control, which has read his text, and is in no other.
-TEST_F(BrokenProgramTest, IsNoObstacleForWhatIsAskedForAtTheControl) {
-  add_port(mill());
-  break_off_a_run();
-  bool is_started = false;
-  ports_->machines().start_later(
-      {.machine = "mill", .program = "O2", .revision = {}, .author = "control"},
-      [&](const Result<Run>& run) { is_started = run.has_value(); });
-  EXPECT_EQ(line().read_until("M30\n%\n"), "%\nO2\nG0 X9\nM30\n%\n");
-  EXPECT_TRUE(wait([&] { return is_started; }));
-}
-
 TEST_F(BrokenProgramTest, OfAControlThatAsksForItsProgramsIsLeftToItsProtocol) {
   auto port = mill();
   port.settings.emplace_back("wait_for_xon", "yes");
