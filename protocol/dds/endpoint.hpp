@@ -150,6 +150,9 @@ class ServerEndpoint {
   /// Errors: also Unsupported (the machine's gateway has announced no line). Can be lost until the
   /// gateway is matched; the caller repeats it.
   virtual Result<void> write(const LineRequest& message) = 0;
+  /// No status of this machine arrives though its gateway is connected: takes them through another
+  /// reader from now on. Returns at once; the latest one may come again.
+  virtual void renew_status(const std::string& /*machine*/) {}
   virtual Rejected rejected() const = 0;
 };
 

@@ -114,6 +114,14 @@ Qos reader_qos<Status>() {
   return qos;
 }
 
+// All best-effort readers of a writer share one idea of which sample comes next, and nothing but
+// the end of the writer sets it back: after a single forged datagram with a high number every
+// status of the gateway is an old one. A reliable reader that asks for the latest value catches up
+// by itself, with an idea of its own, and stays so while the shared one is ahead of it.
+Qos renewed_status_qos() {
+  return topic_qos<Status>();
+}
+
 // The outbox sends records again until they are acknowledged; the depth is its window.
 template <>
 Qos topic_qos<Record>() {

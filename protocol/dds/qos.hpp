@@ -17,6 +17,9 @@ Qos partition_qos(const std::string& partition);
 void set_term(const Qos& qos, std::uint64_t term);
 std::uint64_t term_in(const dds_qos_t* qos);
 
+/// Of a reader of statuses that takes the place of one that gets none any more.
+Qos renewed_status_qos();
+
 /// Of a topic and its writers.
 template <class Message>
 Qos topic_qos();

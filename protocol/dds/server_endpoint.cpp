@@ -27,6 +27,9 @@ class Server final : public ServerEndpoint {
   Result<void> write(const Command& message) override { return write_to_cell(message); }
   Result<void> write(const BlockData& message) override { return write_to_cell(message); }
   Result<void> write(const LineRequest& message) override { return write_to_cell(message); }
+  void renew_status(const std::string& machine) override {
+    cells_[shared_.cell_with(machine)]->renew_status(machine);
+  }
   Rejected rejected() const override { return shared_.rejections.get(); }
 
  private:

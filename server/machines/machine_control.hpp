@@ -21,6 +21,9 @@ struct MachineView {
   bool is_connected = false;
   std::uint64_t session = 0;  ///< of the gateway heard last; commands go to this one
   bool is_contested = false;  ///< two gateways claim to be this machine
+  /// Its gateway is connected, but no status of it arrives: what is shown is what was.
+  bool is_stale = false;
+  std::optional<UtcTime> status_taken = {};  ///< when the last status arrived
   /// Switches that keep the machine from moving and were on at the gateway before this one, which
   /// begins without them: "test_run"; empty: none, or something has run since.
   std::string lost_switches = {};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -86,6 +85,7 @@ void MachineRegistry::on_announce(const dds::Announce& announce) {
   machine.epoch = announce.epoch;
   machine.last_seen = now;
   entry.view.is_connected = true;
+  entry.heard = parts_.clock.steady_now();
   entry.view.protocol = announce.protocol;
   entry.view.commands = announce.commands;
   entry.view.certificate_expires = announce.certificate_expires;
@@ -102,11 +102,12 @@ void MachineRegistry::on_status(dds::Status status) {
   const std::lock_guard lock(mutex_);
   Entry& entry = entries_[status.machine];
   entry.view.machine.last_seen = parts_.clock.now();
+  const bool is_back = !is_repeated(entry, status) && note_status(entry);
   hear(entry, status.session);
   if (entry.has_rival) contest(entry);
   compare_clocks(entry, status);
   entry.counters_are_dirty = entry.counters_are_dirty || !status.run.empty();
-  const bool is_urgent = !entry.view.status || is_news(*entry.view.status, status);
+  const bool is_urgent = is_back || !entry.view.status || is_news(*entry.view.status, status);
   if (!status.run.empty() || !still_switches(status).empty()) entry.view.lost_switches.clear();
   entry.view.status = std::move(status);
   if (!is_announced(entry)) return;
@@ -115,6 +116,46 @@ void MachineRegistry::on_status(dds::Status status) {
   } else {
     schedule_in_round(entry);
   }
+}
+
+/// The latest one, which a renewed reader gets again, is no sign of life. An older one may be:
+/// without DDS Security what was taken before it may be forged, with any time.
+bool MachineRegistry::is_repeated(const Entry& entry, const dds::Status& status) {
+  const bool has_time = status.steady != std::chrono::microseconds{0};
+  return has_time && entry.view.status && *entry.view.status == status;
+}
+
+bool MachineRegistry::note_status(Entry& entry) {
+  entry.heard = parts_.clock.steady_now();
+  entry.view.status_taken = parts_.clock.now();
+  if (!std::exchange(entry.is_stale, false)) return false;
+  process::log_info("statuses arrive again machine={}", entry.view.machine.name);
+  return true;
+}
+
+bool MachineRegistry::is_silent(const Entry& entry) const {
+  return entry.view.is_connected && parts_.clock.steady_now() - entry.heard > kStale;
+}
+
+std::vector<std::string> MachineRegistry::note_silence() {
+  std::vector<std::string> due;
+  const std::lock_guard lock(mutex_);
+  const SteadyTime now = parts_.clock.steady_now();
+  for (auto& [name, entry] : entries_) {
+    if (!is_silent(entry)) {
+      entry.is_stale = false;
+      continue;
+    }
+    if (!std::exchange(entry.is_stale, true)) {
+      process::log_error("{} machine={}", silence_notice(shown(entry)), name);
+      entry.renewal = now;
+      if (is_announced(entry)) schedule(entry);
+    }
+    if (now < entry.renewal) continue;
+    entry.renewal = now + kRenewal;
+    due.push_back(name);
+  }
+  return due;
 }
 
 /// A restarted gateway has a new session, and the old one is never heard again. If it is heard,
@@ -182,6 +223,7 @@ CommandDispatcher::Options::Gateway MachineRegistry::gateway(const std::string& 
 MachineView MachineRegistry::shown(const Entry& entry) const {
   MachineView view = entry.view;
   view.is_contested = parts_.clock.steady_now() < entry.contested_until;
+  view.is_stale = is_silent(entry);
   return view;
 }
 
@@ -340,49 +382,6 @@ void GatewayClocks::compare(const dds::Status& status, UtcTime now, SteadyTime s
 std::optional<microseconds> GatewayClocks::time_ahead() const {
   if (count_ < kSamples) return std::nullopt;
   return *std::max_element(time_ahead_.begin(), time_ahead_.end());
-}
-
-bool is_news(const dds::Status& before, const dds::Status& now) {
-  const auto compared = [](const dds::Status& s) {
-    return std::tie(s.execution, s.mode, s.run, s.program, s.message, s.single_block,
-                    s.emergency_stop, s.remote_enable, s.waits_for, s.feed_override,
-                    s.rapid_override, s.spindle_override, s.session, s.axes, s.switches, s.jog);
-  };
-  return compared(before) != compared(now) ||
-         before.serial_line.has_value() != now.serial_line.has_value();
-}
-
-std::string protocol_notice(std::uint32_t protocol) {
-  if (protocol == dds::kProtocolVersion) return {};
-  return fmt::format(
-      "the gateway speaks protocol {}, this server {}: install the same version at both ends",
-      protocol, dds::kProtocolVersion);
-}
-
-std::string clock_notice(std::chrono::microseconds ahead) {
-  const auto distance = std::chrono::abs(ahead);
-  if (distance <= GatewayClocks::kTolerance) return {};
-  return fmt::format("the gateway's clock is {:.1f} s {} the server's",
-                     std::chrono::duration<double>(distance).count(),
-                     ahead.count() > 0 ? "ahead of" : "after");
-}
-
-std::string switch_notice(const MachineView& view) {
-  if (view.lost_switches.empty()) return {};
-  return fmt::format(
-      "the gateway was restarted, and {}, on before, is off: a start moves the machine",
-      view.lost_switches);
-}
-
-std::vector<std::string> notices_of(const MachineView& view) {
-  std::vector<std::string> notices;
-  const auto add = [&notices](std::string notice) {
-    if (!notice.empty()) notices.push_back(std::move(notice));
-  };
-  if (view.is_contested) add("two gateways claim to be this machine: stop one of them");
-  if (view.protocol) add(protocol_notice(*view.protocol));
-  if (view.is_connected && view.clock_ahead) add(clock_notice(*view.clock_ahead));
-  return notices;
 }
 
 }  // namespace dripline::machines

@@ -53,6 +53,10 @@ class MachineRegistry {
   /// A machine stays contested this long after the last status of a second gateway; each writes one
   /// a second.
   static constexpr std::chrono::seconds kContested{3};
+  /// A gateway writes a status each second; after this time without one what is shown is old.
+  static constexpr std::chrono::seconds kStale{5};
+  /// So often what keeps them from arriving is tried to be got around.
+  static constexpr std::chrono::seconds kRenewal{10};
   /// What only moves on (positions, counters) is published in rounds, so often at most; what else
   /// changes goes out at once.
   static constexpr std::chrono::milliseconds kShortestRound{50}, kLongestRound{200};
@@ -92,6 +96,9 @@ class MachineRegistry {
   /// How far the gateway's time of day is ahead of the server's; zero while that is within the
   /// tolerance.
   std::chrono::microseconds clock_error(const std::string& name) const;
+  /// Marks the machines whose status has become old, and publishes that. Returns those of which
+  /// another try is due to get any.
+  std::vector<std::string> note_silence();
   /// Saves what changed: counters of runs, and when a machine was seen last. From a worker.
   void save();
 
@@ -100,6 +107,9 @@ class MachineRegistry {
     MachineView view;
     std::deque<std::uint64_t> earlier_sessions;  ///< of gateways before, the newest kMaxSessions
     SteadyTime contested_until{};
+    SteadyTime heard{};     ///< its last status, or its announcement if that was later
+    SteadyTime renewal{};   ///< when it is tried next to get a status
+    bool is_stale = false;  ///< and the log has it
     bool has_rival = false;
     GatewayClocks clocks;
     bool clock_is_off = false;  ///< and the log has it
@@ -118,6 +128,10 @@ class MachineRegistry {
   static void note_lost_switches(MachineView& view);
   void hear(Entry& entry, std::uint64_t session);
   void contest(Entry& entry);
+  static bool is_repeated(const Entry& entry, const dds::Status& status);
+  /// True: none had arrived for long.
+  bool note_status(Entry& entry);
+  bool is_silent(const Entry& entry) const;
   void compare_clocks(Entry& entry, const dds::Status& status);
   MachineView shown(const Entry& entry) const;
   void publish(Entry& entry);
@@ -141,6 +155,9 @@ bool is_news(const dds::Status& before, const dds::Status& now);
 /// Faults between the server and this machine's gateway, in sentences for people; empty when there
 /// is none. Without what the machine itself reports.
 std::vector<std::string> notices_of(const MachineView& view);
+
+/// "no status of the gateway has arrived since ..."; empty while they do.
+std::string silence_notice(const MachineView& view);
 
 /// That a restart of its gateway has switched off what kept the machine from moving; empty:
 /// nothing.

@@ -141,6 +141,7 @@ void MachineService::end() {
 void MachineService::tick() {
   if (is_ending_) return;
   registry_.save();
+  for (const auto& machine : registry_.note_silence()) endpoint_->renew_status(machine);
   owned_parts_->reconciler.compare(registry_.views());
   log_rejected();
   pool_.post_after(MachineRegistry::kSaveInterval, [this] { tick(); });
@@ -189,6 +190,7 @@ Result<MachineView> MachineService::machine_for_work(const std::string& name) co
   if (!view) return view;
   if (auto stored = registry_.view(name); !stored) return stored;
   if (auto alone = check_alone(*view); !alone) return fail(alone.error());
+  if (auto heard = check_heard(*view); !heard) return fail(heard.error());
   if (auto same = check_protocol(*view); !same) return fail(same.error());
   return view;
 }
@@ -197,6 +199,11 @@ Result<void> MachineService::check_alone(const MachineView& view) {
   if (!view.is_contested) return {};
   return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them",
               view.machine.name);
+}
+
+Result<void> MachineService::check_heard(const MachineView& view) {
+  if (!view.is_stale) return {};
+  return fail(Errc::Timeout, "machine '{}': {}", view.machine.name, silence_notice(view));
 }
 
 /// A gateway of another version keeps its run and its reports, and can only be stopped.
@@ -236,6 +243,7 @@ Result<void> MachineService::send(dds::Command command, const CommandRequest& re
   if (!is_stop) {
     if (auto fits = check_protocol(view); !fits) return fits;
     if (auto alone = check_alone(view); !alone) return alone;
+    if (auto heard = check_heard(view); !heard) return heard;
   }
   command.action = request.action;
   command.argument = request.argument;

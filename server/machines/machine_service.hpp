@@ -86,6 +86,8 @@ class MachineService final : public MachineControl {
   static Result<void> check_protocol(const MachineView& view);
   /// Errors: Busy (two gateways claim to be the machine).
   static Result<void> check_alone(const MachineView& view);
+  /// Errors: Timeout (what is known of the machine is old).
+  static Result<void> check_heard(const MachineView& view);
   Result<CommandTarget> target_of(const CommandRequest& request) const;
   static bool is_stop(const CommandRequest& request, const MachineView& view);
   void note_stop(const CommandRequest& request, const std::string& machine);

@@ -20,7 +20,8 @@ struct WrittenMessages {
   std::vector<dds::Command> commands;
   std::vector<dds::BlockData> blocks;
   std::vector<dds::LineRequest> line_requests;
-  std::atomic<int> refusals{0};  ///< so many writes of blocks fail with Timeout
+  std::vector<std::string> renewed;  ///< machines whose statuses get another reader
+  std::atomic<int> refusals{0};      ///< so many writes of blocks fail with Timeout
   std::function<void(const dds::Command&)>
       on_command;  ///< plays the gateway, on the writer's thread
   std::function<void(const dds::LineRequest&)> on_line_request = {};  ///< likewise
@@ -56,6 +57,10 @@ class FakeServerEndpoint final : public dds::ServerEndpoint {
     auto kept = keep(written_->line_requests, message);
     if (written_->on_line_request) written_->on_line_request(message);
     return kept;
+  }
+  void renew_status(const std::string& machine) override {
+    // NOLINTNEXTLINE(bugprone-unused-return-value): it is always kept
+    (void)keep(written_->renewed, machine).has_value();
   }
   dds::Rejected rejected() const override { return {}; }
 

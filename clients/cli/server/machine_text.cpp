@@ -137,6 +137,9 @@ std::string status_line(const client::Machine& machine) {
   if (!machine.connected) return fmt::format("{}  not connected", machine.name);
   if (!machine.status) return fmt::format("{}  connected, no status yet", machine.name);
   const auto status = status_of(machine);
+  if (machine.stale)
+    return fmt::format("{}  connected, but its status does not arrive (last {})", machine.name,
+                       status.execution);
   std::string line = fmt::format("{}  {}", machine.name, status.execution);
   if (!status.run.empty()) {
     line += fmt::format("  {} {:3.0f} %  {}", status.program, fraction_executed(status) * 100,
@@ -200,6 +203,7 @@ std::string switches_text(const client::MachineStatus& status) {
 Cell execution_cell(const client::Machine& machine) {
   if (!machine.status) return {"", Style::Plain};
   const std::string& last = machine.status->execution;
+  if (machine.stale) return {fmt::format("STALE (last {})", last), Style::Bad};
   if (machine.connected) return {last, style_of_execution(last)};
   return {fmt::format("UNAVAILABLE (last {})", last), Style::Bad};
 }

@@ -156,7 +156,9 @@ void members(V& v, Is<Hold> auto& x) {
 
 template <class V>
 void members(V& v, Is<Machine> auto& x) {
-  DRIPLINE_MEMBERS(name, control, description, gateway_version, connected, clock_ahead_seconds);
+  DRIPLINE_MEMBERS(name, control, description, gateway_version, connected);
+  v.later("stale", x.stale);
+  DRIPLINE_MEMBERS(clock_ahead_seconds);
   v.later("notices", x.notices);
   DRIPLINE_MEMBERS(first_seen, last_seen);
   v.later("held", x.held);

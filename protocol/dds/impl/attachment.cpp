@@ -10,14 +10,15 @@ template <class Message>
 Result<void> open_reader(std::unique_ptr<PeerReader<Message>>& reader, const Entity& subscriber,
                          const Entity& topic, const std::string& machine,
                          const std::function<void(Message)>& handler, Rejections& rejections,
-                         const std::function<void()>& on_matched) {
+                         const std::function<void()>& on_matched, Qos qos = reader_qos<Message>()) {
   auto created = PeerReader<Message>::create(subscriber, topic, rejections,
                                              {.machine = machine,
                                               .on_message =
                                                   [&handler](Message&& message) {
                                                     if (handler) handler(std::move(message));
                                                   },
-                                              .wake = on_matched});
+                                              .wake = on_matched,
+                                              .qos = std::move(qos)});
   if (!created) return fail(created.error());
   reader = std::move(*created);
   return {};
@@ -107,6 +108,15 @@ void Attachment::set_gateway(const std::string& participant) {
   command_result->set_peer(participant);
   request->set_peer(participant);
   if (line_data) line_data->set_peer(participant);
+}
+
+Result<void> Attachment::renew_status(const ServerTopics& topics, const std::string& machine,
+                                      const ServerHandlers& handlers, Rejections& rejections,
+                                      const std::function<void()>& on_matched) {
+  auto renewed = open_reader(status, subscriber, topics.status, machine, handlers.on_status,
+                             rejections, on_matched, renewed_status_qos());
+  if (renewed) status->set_peer(gateway);
+  return renewed;
 }
 
 void Attachment::resolve() {

@@ -64,6 +64,11 @@ struct Attachment {
   bool is_matched_with(const std::string& participant) const;
   /// Rejects messages of other participants for this machine; empty: those of all.
   void set_gateway(const std::string& participant);
+  /// Status gets a reader that has its own idea of what comes next (qos.cpp), in place of the
+  /// present one.
+  Result<void> renew_status(const ServerTopics& topics, const std::string& machine,
+                            const ServerHandlers& handlers, Rejections& rejections,
+                            const std::function<void()>& on_matched);
   /// Looks up the participants of new writers.
   void resolve();
 };

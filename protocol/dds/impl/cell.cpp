@@ -97,7 +97,8 @@ void Cell::post_announced(Arrived arrived) {
 void Cell::post_gone(const std::string& machine) {
   {
     std::lock_guard lock(news_mutex_);
-    if (MachineNews* news = news_of(machine)) *news = {.is_gone = true, .announced = {}};
+    if (MachineNews* news = news_of(machine))
+      *news = {.is_gone = true, .is_silent = false, .announced = {}};
   }
   news_came_.notify_one();
 }
@@ -123,6 +124,7 @@ void Cell::watch(const std::stop_token& stop) {
     }
     for (auto& [machine, what] : news) {
       if (what.is_gone) handle_lost(machine);
+      if (what.is_silent) handle_silent(machine);
       for (auto& [writer, arrived] : what.announced) handle_announced(machine, std::move(arrived));
     }
     for (const auto& [name, machine] : machines_) {  // the watcher reads its own writes
@@ -144,6 +146,22 @@ void Cell::handle_lost(const std::string& machine) {
   const bool was_ever_ready = attached->delivered.has_value();
   lose(*attached, machine);
   if (!was_ever_ready) drop(machine);
+}
+
+void Cell::renew_status(const std::string& machine) {
+  {
+    const std::lock_guard lock(news_mutex_);
+    if (MachineNews* news = news_of(machine)) news->is_silent = true;
+  }
+  news_came_.notify_one();
+}
+
+void Cell::handle_silent(const std::string& machine) {
+  const auto attached = find(machine);
+  if (attached == nullptr || !attached->is_ready) return;
+  const auto renewed = attached->renew_status(topics_, machine, shared_.handlers,
+                                              shared_.rejections, [this] { wake_watcher(); });
+  if (!renewed) shared_.rejections.add(Topic<Status>::kName, renewed.error().what);
 }
 
 void Cell::lose(Attachment& attached, const std::string& machine) {

@@ -60,12 +60,15 @@ class Cell {
   Result<void> write(const LineRequest& message) {
     return write_to(message, &Attachment::line_request);
   }
+  /// As ServerEndpoint::renew_status.
+  void renew_status(const std::string& machine);
 
  private:
   /// What happened to one machine since the watcher's last look: its announcement is gone, then
   /// these did, the latest of each writer.
   struct MachineNews {
     bool is_gone = false;
+    bool is_silent = false;  ///< its statuses do not arrive
     std::map<dds_instance_handle_t, Arrived> announced;
   };
   using News = std::map<std::string, MachineNews>;
@@ -100,6 +103,7 @@ class Cell {
   void wake_watcher();
   void watch(const std::stop_token& stop);
   void handle_lost(const std::string& machine);
+  void handle_silent(const std::string& machine);
   void handle_announced(const std::string& machine, Arrived arrived);
   void handle_news_of_gateway(Attachment& attached, Arrived arrived);
   void lose(Attachment& attached, const std::string& machine);

@@ -68,9 +68,9 @@ class Sources {
       }
       for (auto& [writer, message] : samples) {
         const auto known = asked.find(writer);
-        const std::string participant =
-            known != asked.end() ? known->second
-                                 : asked.emplace(writer, participant_of(writer)).first->second;
+        std::string participant = known != asked.end() ? known->second : participant_of(writer);
+        // One that is gone, or not here yet, may be here later.
+        if (known == asked.end() && !participant.empty()) asked.emplace(writer, participant);
         if (!peer.empty() && participant == peer) {
           handlers_.deliver(std::move(message));
         } else {
@@ -112,6 +112,7 @@ class PeerReader {
     std::string machine;  ///< samples with another key are rejected
     std::function<void(Message&&)> on_message;
     std::function<void()> wake;
+    Qos qos = reader_qos<Message>();
   };
   static Result<std::unique_ptr<PeerReader>> create(const Entity& subscriber, const Entity& topic,
                                                     Rejections& rejections, Options options) {
@@ -130,7 +131,8 @@ class PeerReader {
                                        sources->take(writer, std::move(message));
                                      },
                                  .on_gone = {},
-                                 .on_matched = options.wake});
+                                 .on_matched = options.wake},
+                                options.qos);
     if (!created) return fail(created.error());
     reader->reader_ = std::move(*created);
     return reader;

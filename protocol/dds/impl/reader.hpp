@@ -54,7 +54,8 @@ class Reader {
   /// `machine`: samples with another key are rejected; empty: any key.
   static Result<std::unique_ptr<Reader>> create(const Entity& subscriber, const Entity& topic,
                                                 std::string machine, Rejections& rejections,
-                                                ReaderHandlers<Message> handlers) {
+                                                ReaderHandlers<Message> handlers,
+                                                const Qos& qos = reader_qos<Message>()) {
     std::unique_ptr<Reader> reader(new Reader(std::move(machine), rejections, std::move(handlers)));
     const Listener listener(dds_create_listener(reader.get()));
     dds_lset_data_available(listener.get(), [](dds_entity_t entity, void* self) {
@@ -65,8 +66,7 @@ class Reader {
           const auto& on_matched = static_cast<Reader*>(self)->handlers_.on_matched;
           if (on_matched) on_matched();
         });
-    auto entity = own(dds_create_reader(subscriber.get(), topic.get(), reader_qos<Message>().get(),
-                                        listener.get()),
+    auto entity = own(dds_create_reader(subscriber.get(), topic.get(), qos.get(), listener.get()),
                       Topic<Message>::kName);
     if (!entity) return fail(entity.error());
     reader->entity_ = std::move(*entity);

@@ -5,7 +5,7 @@ import type { Machine, Run } from '../../generated/api';
 export type Tone = 'running' | 'waiting' | 'alarm' | 'ready' | 'done' | 'offline';
 
 export type StateWord =
-  | 'disconnected' | 'unknown' | 'emergencyStop' | 'alarm' | 'interruptedRun' | 'stopped' | 'active' | 'feedHold' | 'programStopped'
+  | 'disconnected' | 'stale' | 'unknown' | 'emergencyStop' | 'alarm' | 'interruptedRun' | 'stopped' | 'active' | 'feedHold' | 'programStopped'
   | 'optionalStop' | 'singleBlock' | 'completed' | 'ready' | 'waits' | 'waitsForCycleStart' | 'waitsForAnswer' | 'waitsForText' | 'waitsForDisk';
 
 export interface MachineState {
@@ -23,6 +23,7 @@ const kWaits: Record<string, StateWord> = {
 export function stateOf(machine: Machine, run?: Run): MachineState {
   const status = machine.status;
   if (!machine.connected) return { tone: 'offline', word: 'disconnected', message: null };
+  if (machine.stale) return { tone: 'offline', word: 'stale', message: null };
   if (!status) return { tone: 'offline', word: 'unknown', message: null };
   const as = (tone: Tone, word: StateWord): MachineState => ({ tone, word, message: status.message });
   if (status.emergency_stop) return as('alarm', 'emergencyStop');

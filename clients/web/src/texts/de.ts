@@ -9,6 +9,7 @@ import { templates } from './de/templates';
 export const de: Texts = {
   states: {
     disconnected: 'Nicht verbunden',
+    stale: 'Keine Meldung mehr',
     unknown: 'Noch kein Status',
     emergencyStop: 'Not-Halt',
     alarm: 'Alarm',

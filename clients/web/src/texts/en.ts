@@ -8,6 +8,7 @@ import { templates } from './en/templates';
 
 const states: Record<StateWord, string> = {
   disconnected: 'Not connected',
+  stale: 'Status does not arrive',
   unknown: 'No status yet',
   emergencyStop: 'Emergency stop',
   alarm: 'Alarm',

@@ -25,6 +25,7 @@ test('an event that is not complete is not given', () => {
 
 test('a machine without connection is old news, whatever its status was', () => {
   assert.equal(stateOf(machine({ connected: false }, { execution: 'ACTIVE' })).word, 'disconnected');
+  assert.equal(stateOf(machine({ stale: true }, { execution: 'ACTIVE' })).word, 'stale');
   assert.equal(stateOf({ ...machine(), status: null }).word, 'unknown');
 });
 

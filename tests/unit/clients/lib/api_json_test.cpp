@@ -80,6 +80,7 @@ TEST(ApiJson, GivesBackWhatItRead) {
   machine["positions"] = nullptr;
   machine["held"] = nullptr;
   machine["queue_hold"] = nullptr;
+  machine["stale"] = false;
   EXPECT_EQ(nlohmann::json(to_json_value(*from_json<client::Machine>(machine))), machine);
   auto run = test_support::run_json("r1", "completed");
   run["job"] = nullptr;

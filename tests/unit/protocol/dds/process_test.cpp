@@ -81,7 +81,7 @@ class Process : public Network {
   }
 };
 
-using Clock = std::chrono::steady_clock;
+using Steady = std::chrono::steady_clock;
 
 // A lease much longer than the test's patience: nothing here may wait for a ghost to be given up.
 constexpr std::uint32_t kLongLease = 30'000;
@@ -111,11 +111,11 @@ TEST_F(Process, AKilledServerNeverHoldsUpTheGatewaysWrites) {
   auto gateway = open_gateway("lathe-1");
   ASSERT_EQ(gateway->server.take(), true);
   server->kill_now();
-  const auto start = Clock::now();
+  const auto start = Steady::now();
   for (std::uint64_t n = 1; n <= 4 * kRecordWindow; ++n) {
     ASSERT_TRUE(gateway->endpoint->write(record("lathe-1", n)));
   }
-  EXPECT_LT(Clock::now() - start, 2s);  // one wait for the ghost would take the 30 s of its lease
+  EXPECT_LT(Steady::now() - start, 2s);  // one wait for the ghost would take the 30 s of its lease
 }
 
 TEST_F(Process, AServerMeetsTheSuccessorOfAKilledGatewayWhenItsLeaseEnds) {
@@ -151,11 +151,11 @@ TEST_F(Process, AStoppedGatewayNeverHoldsUpTheServersWrites) {
   auto gateway = start_gateway(1);
   ASSERT_TRUE(server->announces.take());
   gateway->signal(SIGSTOP);
-  const auto start = Clock::now();
+  const auto start = Steady::now();
   for (std::uint64_t n = 0; n < 4 * kBlockWindow; ++n) {
     ASSERT_TRUE(server->endpoint->write(block_data("lathe-1", n * kMaxBlockBytes, kMaxBlockBytes)));
   }
-  EXPECT_LT(Clock::now() - start, 2s);
+  EXPECT_LT(Steady::now() - start, 2s);
 }
 
 TEST_F(Process, AKilledGatewayIsLostAfterItsLease) {
@@ -192,7 +192,7 @@ TEST_F(Process, AStoppedServerIsMissedAndComesBack) {
   // The awakened server may give the gateway up once more before all is well, so what is written
   // now can be lost. The outbox sends again, and so does this.
   std::optional<RecordAck> ack;
-  for (const auto start = Clock::now(); !ack && Clock::now() - start < kDeadline;) {
+  for (const auto start = Steady::now(); !ack && Steady::now() - start < kDeadline;) {
     ASSERT_TRUE(gateway->endpoint->write(record("lathe-1", 5)));
     ack = gateway->acks.take(200ms);
   }

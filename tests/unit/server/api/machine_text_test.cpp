@@ -51,6 +51,20 @@ TEST(MachineText, HasNullForWhatIsNoNumber) {
   EXPECT_TRUE(status["feed_mm_per_min"].is_null());
 }
 
+TEST(MachineText, SaysThatTheStatusDoesNotArrive) {
+  auto view = a_view();
+  view.is_connected = true;
+  EXPECT_EQ(machine_json(view)["stale"], false);
+  view.is_stale = true;
+  view.status_taken = UtcTime{std::chrono::seconds(1'600'000'000)};
+  const auto json = machine_json(view);
+  EXPECT_EQ(json["stale"], true);
+  EXPECT_NE(
+      json["notices"][0].get<std::string>().find("no status of it has arrived since 2020-09-13"),
+      std::string::npos)
+      << json["notices"];
+}
+
 TEST(MachineText, HasNullForWhatIsAbsent) {
   machines::MachineView view;
   view.machine.name = "mill-7";

@@ -200,5 +200,102 @@ TEST_F(MachineRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
   EXPECT_FALSE(service_->machine("lathe-1")->is_contested);
 }
 
+/// A machine whose gateway is connected, and whose statuses do not arrive.
+class SilentMachine : public MachineRuns {
+ protected:
+  void fall_silent() {
+    push("O0100", "M30\n");
+    start_service();
+    announce();
+    answer_commands(true);
+    clock_.advance(machines::MachineRegistry::kStale + 1s);
+  }
+  Result<void> command(dds::CommandAction action) {
+    machines::CommandRequest request;
+    request.machine = "lathe-1";
+    request.action = action;
+    return service_->command(request);
+  }
+  bool is_stale() { return service_->machine("lathe-1")->is_stale; }
+};
+
+TEST_F(SilentMachine, IsMarkedAndOnlyStopped) {
+  fall_silent();
+  EXPECT_TRUE(wait_notified(machines_, [](const auto& view) { return view.is_stale; }));
+  const auto view = service_->machine("lathe-1");
+  EXPECT_TRUE(view->is_stale && view->is_connected);
+  EXPECT_NE(machines::notices_of(*view).at(0).find("no status of it has arrived since"),
+            std::string::npos);
+  EXPECT_EQ(start("O0100").error().code, Errc::Timeout);
+  EXPECT_EQ(command(dds::CommandAction::Resume).error().code, Errc::Timeout);
+  EXPECT_TRUE(command(dds::CommandAction::Hold)) << "stopping always works";
+  EXPECT_TRUE(written_->wait([&] { return written_->renewed.size() == 1; }));
+}
+
+TEST_F(SilentMachine, IsTakenAtItsWordAgainWithTheNextStatus) {
+  fall_silent();
+  EXPECT_TRUE(is_stale());
+  heartbeat();
+  EXPECT_FALSE(is_stale());
+  EXPECT_TRUE(start("O0100"));
+}
+
+/// The latest one comes again when its reader is opened again.
+TEST_F(SilentMachine, IsNotHeardByARepeatedStatus) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  dds::Status last;
+  last.machine = "lathe-1";
+  last.session = kSession;
+  last.time = clock_.now();
+  last.steady = gateway_steady();
+  network_.on_status(last);
+  clock_.advance(machines::MachineRegistry::kStale + 1s);
+  network_.on_status(last);
+  EXPECT_TRUE(is_stale());
+}
+
+/// It must not keep out the true ones, which are older by what it claims.
+TEST_F(SilentMachine, IsHeardAfterAForgedStatusOfTheFuture) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  dds::Status forged;
+  forged.machine = "lathe-1";
+  forged.session = kSession;
+  forged.steady = gateway_steady() + std::chrono::hours(1000);
+  forged.time = clock_.now() + std::chrono::hours(1000);
+  forged.execution = dds::Execution::Active;
+  network_.on_status(forged);
+  clock_.advance(machines::MachineRegistry::kStale + 1s);
+  heartbeat();
+  EXPECT_FALSE(is_stale());
+  EXPECT_EQ(service_->machine("lathe-1")->status->execution, dds::Execution::Ready);
+}
+
+/// What it showed last may be from before the run.
+TEST_F(SilentMachine, KeepsItsRun) {
+  fall_silent();
+  heartbeat();
+  const auto run = start("O0100");
+  ASSERT_TRUE(run) << run.error().what;
+  clock_.advance(machines::MachineRegistry::kStale + 1s);
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  machines::CommandDispatcher dispatcher(endpoint, clock_, {}, [](const dds::Command&) {});
+  std::mutex state_mutex;
+  machines::RunReconciler reconciler({.runs = store_->runs,
+                                      .clock = clock_,
+                                      .commands = dispatcher,
+                                      .state_mutex = state_mutex,
+                                      .on_change = [](const auto&) {},
+                                      .on_unwanted = [](const auto&) {}});
+  reconciler.watch("lathe-1", run->id);
+  reconciler.compare(service_->machines());
+  clock_.advance(machines::RunReconciler::kAbsence);
+  reconciler.compare(service_->machines());
+  EXPECT_EQ(store_->runs.find(run->id)->state, storage::RunState::Active);
+}
+
 }  // namespace
 }  // namespace dripline::server_test

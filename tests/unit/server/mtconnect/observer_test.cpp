@@ -66,6 +66,21 @@ TEST_F(ObserverTest, ALostMachineIsUnavailableInEverything) {
   EXPECT_EQ(count(xml, "<Unavailable "), 2U);
 }
 
+TEST_F(ObserverTest, AMachineWhoseStatusDoesNotArriveIsUnavailable) {
+  auto lathe = view("lathe-1");
+  lathe.status.edit().program = "O1";
+  observe(lathe);
+  lathe.is_stale = true;
+  observe(lathe);
+  EXPECT_EQ(value(get("/current"), "availability.lathe-1"), "UNAVAILABLE");
+  EXPECT_EQ(value(get("/current"), "program.lathe-1"), "UNAVAILABLE");
+  lathe.is_stale = false;
+  lathe.status.edit().time += std::chrono::seconds(9);
+  observe(lathe);
+  EXPECT_EQ(value(get("/current"), "availability.lathe-1"), "AVAILABLE");
+  EXPECT_EQ(value(get("/current"), "program.lathe-1"), "O1");
+}
+
 TEST_F(ObserverTest, AMachineThatIsBackShowsNothingOld) {
   auto lathe = view("lathe-1");
   lathe.status.edit().program = "O1";
