@@ -186,6 +186,8 @@ class Client {
   Reply<void> command(std::string_view run, const CommandRequest& request);
   /// Switches and overrides of the machine's panel; they need no run.
   Reply<void> command_machine(std::string_view machine, const CommandRequest& request);
+  /// The gateway that waits becomes the machine's.
+  Reply<void> confirm_gateway(std::string_view machine);
   Reply<std::vector<Record>> records(std::string_view run, std::string_view kind, Page page);
 
   Reply<std::vector<Port>> ports();

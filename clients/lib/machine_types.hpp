@@ -148,6 +148,7 @@ struct Hold {
 struct Machine {
   std::string name, control, description, gateway_version;
   bool connected = false;
+  std::optional<std::string> unconfirmed_gateway = {};  ///< its version; absent: none
   bool stale = false;  ///< connected, but its status does not arrive: what is here may be wrong
   /// How far the gateway's clock is ahead of the server's; negative: it is late.
   std::optional<double> clock_ahead_seconds;

@@ -126,6 +126,9 @@ struct ServerHandlers {
   /// Another participant announces the same machine while the present one is alive: its messages
   /// are rejected until that one is lost. false: no longer.
   std::function<void(std::string machine, bool is_there)> on_rival;
+  /// Whether a gateway may become that of a machine, which has none at the time. False: it waits,
+  /// as a rival does, until it is asked for again. Empty: any may.
+  std::function<bool(const Announce&)> may_serve = {};
   std::function<void(Status)> on_status;
   std::function<void(Record)> on_record;
   std::function<void(CommandResult)> on_command_result;
@@ -153,6 +156,8 @@ class ServerEndpoint {
   /// No status of this machine arrives though its gateway is connected: takes them through another
   /// reader from now on. Returns at once; the latest one may come again.
   virtual void renew_status(const std::string& /*machine*/) {}
+  /// ServerHandlers::may_serve has another answer for this machine. Returns at once.
+  virtual void look_again(const std::string& /*machine*/) {}
   virtual Rejected rejected() const = 0;
 };
 

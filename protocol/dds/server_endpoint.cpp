@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "protocol/dds/configuration.hpp"
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/dds/impl/cell.hpp"
 
@@ -29,6 +30,11 @@ class Server final : public ServerEndpoint {
   Result<void> write(const LineRequest& message) override { return write_to_cell(message); }
   void renew_status(const std::string& machine) override {
     cells_[shared_.cell_with(machine)]->renew_status(machine);
+  }
+  void look_again(const std::string& machine) override {
+    for (const auto& cell : cells_) {
+      if (takes_machine(machine, cell->number(), shared_.cells)) cell->look_again();
+    }
   }
   Rejected rejected() const override { return shared_.rejections.get(); }
 

@@ -49,6 +49,7 @@ Api::Api(Services services)
   add_report_template_routes(router_, services_);
   add_archive_routes(router_, services_);
   add_folder_routes(router_, services_);
+  add_gateway_routes(router_, services_);
   add_webhook_routes(router_, services_);
   add_job_routes(router_, services_);
   add_upload_routes(router_, services_);

@@ -175,6 +175,7 @@ void add_template_trial_routes(Router& router, Services& services);
 void add_offset_routes(Router& router, Services& services);
 void add_report_template_routes(Router& router, Services& services);
 void add_folder_routes(Router& router, Services& services);
+void add_gateway_routes(Router& router, Services& services);
 void add_webhook_routes(Router& router, Services& services);
 void add_job_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);

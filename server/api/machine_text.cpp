@@ -312,6 +312,7 @@ std::string machine_text(const machines::MachineView& view) {
   out.member("gateway_version", view.machine.gateway_version);
   out.member("connected", view.is_connected);
   out.member("stale", view.is_stale);
+  out.member("unconfirmed_gateway", view.unconfirmed_gateway.value_or(""));
   out.name("clock_ahead_seconds");
   view.clock_ahead ? out.value(std::chrono::duration<double>(*view.clock_ahead).count())
                    : out.null();

@@ -92,6 +92,7 @@ constexpr std::array kRoutes{
     RoutePermission{"GET", "/api/v1/machines", View},
     RoutePermission{"GET", "/api/v1/machines/{name}", View},
     RoutePermission{"POST", "/api/v1/machines/{name}/commands", Operate, Name, Command},
+    RoutePermission{"POST", "/api/v1/machines/{name}/confirm-gateway", Operate, Name},
     RoutePermission{"POST", "/api/v1/machines/{name}/mdi", Operate, Name},
     RoutePermission{"POST", "/api/v1/machines/{name}/datum", Operate, Name},
     RoutePermission{"POST", "/api/v1/machines/{name}/touch-off", Operate, Name},

@@ -87,6 +87,9 @@ class HeldMachines final : public MachineControl {
     return inner_.position(request);
   }
   Result<JogAnswer> jog(const JogRequest& request) override { return inner_.jog(request); }
+  Result<std::string> confirm_gateway(const std::string& machine) override {
+    return inner_.confirm_gateway(machine);
+  }
 
  private:
   Result<void> hold(const CommandRequest& request, const std::string& machine);

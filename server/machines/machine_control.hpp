@@ -21,6 +21,8 @@ struct MachineView {
   bool is_connected = false;
   std::uint64_t session = 0;  ///< of the gateway heard last; commands go to this one
   bool is_contested = false;  ///< two gateways claim to be this machine
+  /// Another gateway that is not taken for the machine's until someone confirms it: its version.
+  std::optional<std::string> unconfirmed_gateway = {};
   /// Its gateway is connected, but no status of it arrives: what is shown is what was.
   bool is_stale = false;
   std::optional<UtcTime> status_taken = {};  ///< when the last status arrived
@@ -195,6 +197,10 @@ class MachineControl {
   /// Returns when the axis rests, at most some 20 s later. Errors: likewise; Timeout also where its
   /// gateway was replaced meanwhile: whether the axis has moved is not known then.
   virtual Result<JogAnswer> jog(const JogRequest& request) = 0;
+  /// The gateway that waits with another memory than the one before becomes the machine's, though a
+  /// run may be in progress. Returns what it is, for people. Errors: NotFound, Conflict (none
+  /// waits).
+  virtual Result<std::string> confirm_gateway(const std::string& machine);
 };
 
 }  // namespace dripline::machines

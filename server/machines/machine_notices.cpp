@@ -41,6 +41,17 @@ std::string silence_notice(const MachineView& view) {
       since);
 }
 
+std::string stranger_notice(const MachineView& view) {
+  if (!view.unconfirmed_gateway) return {};
+  const std::string run =
+      view.status && !view.status->run.empty() ? fmt::format("run {}", view.status->run) : "a run";
+  return fmt::format(
+      "another gateway (version {}) claims to be this machine, and {} may be in progress at the "
+      "one before: it is not taken. Stop it; or, when that run is over and this is the machine's "
+      "gateway, confirm it (dnc machine confirm-gateway {})",
+      *view.unconfirmed_gateway, run, view.machine.name);
+}
+
 std::string switch_notice(const MachineView& view) {
   if (view.lost_switches.empty()) return {};
   return fmt::format(
@@ -55,6 +66,7 @@ std::vector<std::string> notices_of(const MachineView& view) {
   };
   if (view.is_contested) add("two gateways claim to be this machine: stop one of them");
   add(silence_notice(view));
+  add(stranger_notice(view));
   if (view.protocol) add(protocol_notice(*view.protocol));
   if (view.is_connected && view.clock_ahead) add(clock_notice(*view.clock_ahead));
   return notices;

@@ -11,8 +11,6 @@ namespace dripline::machines {
 
 namespace {
 
-constexpr std::size_t kMaxSessions = 8;
-
 storage::RunProgress progress_of(const dds::Status& status) {
   return {
       .machine = status.machine,
@@ -156,37 +154,6 @@ std::vector<std::string> MachineRegistry::note_silence() {
     due.push_back(name);
   }
   return due;
-}
-
-/// A restarted gateway has a new session, and the old one is never heard again. If it is heard,
-/// there are two.
-void MachineRegistry::hear(Entry& entry, std::uint64_t session) {
-  if (session == 0 || session == entry.view.session) return;
-  auto& earlier = entry.earlier_sessions;
-  if (std::ranges::find(earlier, session) != earlier.end()) {
-    contest(entry);
-    std::erase(earlier, session);
-  }
-  if (entry.view.session != 0) earlier.push_back(entry.view.session);
-  if (earlier.size() > kMaxSessions) earlier.pop_front();
-  if (entry.view.session != 0) note_lost_switches(entry.view);
-  entry.view.session = session;
-  entry.clocks.reset();
-}
-
-void MachineRegistry::contest(Entry& entry) {
-  const SteadyTime now = parts_.clock.steady_now();
-  if (now >= entry.contested_until) {
-    process::log_error("two gateways claim to be machine={}: stop one of them",
-                       entry.view.machine.name);
-  }
-  entry.contested_until = now + kContested;
-}
-
-/// A killed gateway and its successor: the first is never heard again. If it is, there are two.
-void MachineRegistry::on_rival(const std::string& machine, bool is_there) {
-  const std::lock_guard lock(mutex_);
-  entries_[machine].has_rival = is_there;
 }
 
 void MachineRegistry::compare_clocks(Entry& entry, const dds::Status& status) {

@@ -82,6 +82,12 @@ class MachineRegistry {
   void on_lost(const std::string& machine);
   /// Another gateway of the same name waits for the present one to leave, or waits no longer.
   void on_rival(const std::string& machine, bool is_there);
+  /// Whether a gateway may become the machine's, which has none. While a run may be in progress
+  /// (the server `has_run` of it, or the last status shows one) only the same one may, by the epoch
+  /// of its records; any other one when it is confirmed.
+  bool may_serve(const dds::Announce& announce, bool has_run);
+  /// Promises: MachineControl::confirm_gateway.
+  Result<std::string> confirm_gateway(const std::string& machine);
 
   /// Those that are stored.
   std::vector<MachineView> views() const;
@@ -107,6 +113,7 @@ class MachineRegistry {
     MachineView view;
     std::deque<std::uint64_t> earlier_sessions;  ///< of gateways before, the newest kMaxSessions
     SteadyTime contested_until{};
+    std::uint64_t unconfirmed_epoch = 0, confirmed_epoch = 0;  ///< of gateways; 0: none
     SteadyTime heard{};     ///< its last status, or its announcement if that was later
     SteadyTime renewal{};   ///< when it is tried next to get a status
     bool is_stale = false;  ///< and the log has it
@@ -158,6 +165,9 @@ std::vector<std::string> notices_of(const MachineView& view);
 
 /// "no status of the gateway has arrived since ..."; empty while they do.
 std::string silence_notice(const MachineView& view);
+
+/// That another gateway claims to be a machine with a run, and is not taken; empty: none does.
+std::string stranger_notice(const MachineView& view);
 
 /// That a restart of its gateway has switched off what kept the machine from moving; empty:
 /// nothing.

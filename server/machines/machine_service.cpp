@@ -83,6 +83,11 @@ dds::ServerHandlers MachineService::handlers() {
   handlers.on_rival = [this](const std::string& machine, bool is_there) {
     registry_.on_rival(machine, is_there);
   };
+  handlers.may_serve = [this](const dds::Announce& announce) {
+    Parts* parts = this->parts();
+    const bool has_run = parts != nullptr && parts->reconciler.has_run(announce.machine);
+    return registry_.may_serve(announce, has_run);
+  };
   handlers.on_status = [this](dds::Status status) {
     if (Parts* parts = this->parts(); parts != nullptr && !status.run.empty()) {
       parts->commands.on_run_seen(status.machine, status.run);
@@ -185,6 +190,22 @@ Result<MachineView> MachineService::connected_machine(const std::string& name) c
               to_iso8601(view->machine.last_seen));
 }
 
+Result<MachineView> MachineService::reachable_machine(const CommandRequest& request,
+                                                      const std::string& name) const {
+  auto view = registry_.announced(name);
+  const bool is_stop = dds::is_stop(request.action, request.argument, request.value);
+  if (view && is_stop && view->unconfirmed_gateway) return view;
+  return connected_machine(name);
+}
+
+Result<std::string> MachineService::confirm_gateway(const std::string& machine) {
+  auto confirmed = registry_.confirm_gateway(machine);
+  if (!confirmed) return confirmed;
+  process::log_warning("confirmed machine={}: {}", machine, *confirmed);
+  endpoint_->look_again(machine);
+  return confirmed;
+}
+
 Result<MachineView> MachineService::machine_for_work(const std::string& name) const {
   auto view = connected_machine(name);
   if (!view) return view;
@@ -270,6 +291,10 @@ std::optional<std::string> machine_with(const std::vector<MachineView>& views,
 
 }  // namespace
 
+Result<std::string> MachineControl::confirm_gateway(const std::string& machine) {
+  return fail(Errc::Conflict, "machine '{}': no gateway waits to be confirmed", machine);
+}
+
 std::optional<std::string> MachineControl::machine_of_run(const std::string& run) const {
   return machine_with(machines(), run);
 }
@@ -295,7 +320,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
   const auto target = target_of(request);
   if (!target) return fail(target.error());
   note_stop(request, target->machine);
-  const auto view = connected_machine(target->machine);
+  const auto view = reachable_machine(request, target->machine);
   if (!view) return fail(view.error());
   dds::Command command;
   command.machine = target->machine;
@@ -308,7 +333,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
 /// For its panel: no run is needed.
 Result<void> MachineService::command_machine(const CommandRequest& request) {
   note_stop(request, request.machine);
-  const auto view = connected_machine(request.machine);
+  const auto view = reachable_machine(request, request.machine);
   if (!view) return fail(view.error());
   // To an older gateway it would be the abort of its run.
   if (request.action == dds::CommandAction::Abort) {

@@ -61,6 +61,7 @@ class MachineService final : public MachineControl {
   Result<std::string> values(const ValueQuery& query) override;
   Result<PositionAnswer> position(const PositionRequest& request) override;
   Result<JogAnswer> jog(const JogRequest& request) override;
+  Result<std::string> confirm_gateway(const std::string& machine) override;
   dds::Rejected rejected() const;
   /// Promises: LineQueries::ask.
   Result<dds::LineData> ask_line(dds::LineRequest request,
@@ -96,6 +97,9 @@ class MachineService final : public MachineControl {
   void log_rejected();
   void announce_run(const std::string& run);
   Result<MachineView> connected_machine(const std::string& name) const;
+  /// For what is no stop, connected; a stop is also for a gateway that waits to be confirmed.
+  Result<MachineView> reachable_machine(const CommandRequest& request,
+                                        const std::string& name) const;
   /// Connected, by one gateway of this protocol: it takes more than a stop.
   Result<MachineView> machine_for_work(const std::string& name) const;
   Result<storage::Run> make_run(const StartRequest& request, const MachineView& view);

@@ -30,6 +30,12 @@ void RunReconciler::drop(const std::string& run) {
   runs_.erase(run);
 }
 
+bool RunReconciler::has_run(const std::string& machine) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(runs_,
+                             [&](const auto& entry) { return entry.second.machine == machine; });
+}
+
 void RunReconciler::compare(const std::vector<MachineView>& machines) {
   std::map<std::string, Watched> runs;
   {

@@ -38,6 +38,8 @@ class RunReconciler {
   Result<void> load();
   void watch(const std::string& machine, const std::string& run);
   void drop(const std::string& run);
+  /// Whether a run of this machine is watched.
+  bool has_run(const std::string& machine) const;
   /// Compares; regularly, from one thread.
   void compare(const std::vector<MachineView>& machines);
 
@@ -56,7 +58,7 @@ class RunReconciler {
   void give_up(const std::string& run);
 
   Parts parts_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::string, Watched> runs_;
 };
 

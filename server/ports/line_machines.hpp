@@ -117,6 +117,9 @@ class MachineRouter final : public machines::MachineControl {
   Result<std::string> values(const machines::ValueQuery& query) override;
   Result<machines::PositionAnswer> position(const machines::PositionRequest& request) override;
   Result<machines::JogAnswer> jog(const machines::JogRequest& request) override;
+  Result<std::string> confirm_gateway(const std::string& machine) override {
+    return gateways_.confirm_gateway(machine);
+  }
 
  private:
   storage::RunStore& runs_;

@@ -169,6 +169,26 @@ void add_switch(Command group, Context& context) {
   run_at_server(command, context, options, set_switch);
 }
 
+int confirm_gateway(Context& context, client::Client& client, const std::string& machine) {
+  if (auto confirmed = client.confirm_gateway(machine); !confirmed)
+    return complain(confirmed.error());
+  context.print(fmt::format("The gateway that waited is that of {} from now on.\n", machine));
+  return kExitOk;
+}
+
+void add_confirm_gateway(Command group, Context& context) {
+  auto command = group.add_subcommand("confirm-gateway",
+                                      "Take another gateway than the one before for the machine's");
+  auto name = std::make_shared<std::string>();
+  command.add_option("NAME", *name, "The machine").required();
+  command.footer(
+      "While a run may be in progress, a gateway with another state folder than the one before is "
+      "not taken by itself:\nit may be a second one by mistake, and the first one, which is not "
+      "heard, may still cut. Look at the machine first.\nThe run is shown as interrupted then."
+      "\n\nExample:\n  dnc machine confirm-gateway lathe-1");
+  run_at_server(command, context, name, confirm_gateway);
+}
+
 struct MdiCommand {
   std::string machine;
   std::vector<std::string> blocks;
@@ -241,6 +261,7 @@ void add_machine_commands(Command app, Context& context) {
   run_at_server(status, context, name, show_status);
 
   add_switch(group, context);
+  add_confirm_gateway(group, context);
   add_value_verbs(group, context);
   add_mdi(group, context);
   add_position_verbs(group, context);

@@ -158,6 +158,7 @@ template <class V>
 void members(V& v, Is<Machine> auto& x) {
   DRIPLINE_MEMBERS(name, control, description, gateway_version, connected);
   v.later("stale", x.stale);
+  v.later("unconfirmed_gateway", x.unconfirmed_gateway);
   DRIPLINE_MEMBERS(clock_ahead_seconds);
   v.later("notices", x.notices);
   DRIPLINE_MEMBERS(first_seen, last_seen);

@@ -62,4 +62,8 @@ Reply<void> Client::command_machine(std::string_view machine, const CommandReque
   return send_command(path_of("machines", machine), request);
 }
 
+Reply<void> Client::confirm_gateway(std::string_view machine) {
+  return perform(with_method("POST", path_of("machines", machine) + "/confirm-gateway"));
+}
+
 }  // namespace dripline::client

@@ -141,11 +141,20 @@ void Cell::handle_lost(const std::string& machine) {
   const auto attached = find(machine);
   if (attached == nullptr) return;
   set_rival(machine, *attached, std::nullopt);
-  attached->set_gateway({});
-  shared_.release(machine, number_);
   const bool was_ever_ready = attached->delivered.has_value();
-  lose(*attached, machine);
+  lose_gateway(machine, *attached);
   if (!was_ever_ready) drop(machine);
+}
+
+void Cell::lose_gateway(const std::string& machine, Attachment& attached) {
+  attached.set_gateway({});
+  shared_.release(machine, number_);
+  lose(attached, machine);
+}
+
+bool Cell::may_serve(const Arrived& arrived) const {
+  const auto& may = shared_.handlers.may_serve;
+  return !may || may(arrived.announce);
 }
 
 void Cell::renew_status(const std::string& machine) {
@@ -197,7 +206,8 @@ void Cell::handle_announced(const std::string& machine, Arrived arrived) {
   const auto attached = attach(machine, arrived.announce.has_line);
   if (attached == nullptr) return;
   look_at_rival(machine, *attached);
-  if (attached->gateway.empty() && claim(machine)) attached->set_gateway(arrived.participant);
+  if (attached->gateway.empty() && may_serve(arrived) && claim(machine))
+    attached->set_gateway(arrived.participant);
   if (attached->gateway != arrived.participant) {
     return set_rival(machine, *attached, std::move(arrived));
   }
@@ -214,12 +224,17 @@ void Cell::handle_news_of_gateway(Attachment& attached, Arrived arrived) {
 }
 
 /// A machine keeps its gateway until that is lost. Then the waiting one takes over, without the
-/// machine being lost in between.
+/// machine being lost in between; or the machine is lost, if that one may not.
 void Cell::look_at_rival(const std::string& machine, Attachment& attached) {
   if (!attached.rival) return;
   const bool is_there = publication(announces_->get(), attached.rival->writer).has_value();
   if (!is_there) return set_rival(machine, attached, std::nullopt);
-  if (publication(announces_->get(), attached.announcer)) return;
+  const bool has_gateway = !attached.gateway.empty();
+  if (has_gateway && publication(announces_->get(), attached.announcer)) return;
+  if (!may_serve(*attached.rival)) {
+    if (has_gateway) lose_gateway(machine, attached);
+    return;
+  }
   if (!claim(machine)) return;  // its gateway is in another cell
   Arrived successor = std::move(*attached.rival);
   set_rival(machine, attached, std::nullopt);

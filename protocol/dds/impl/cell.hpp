@@ -62,6 +62,9 @@ class Cell {
   }
   /// As ServerEndpoint::renew_status.
   void renew_status(const std::string& machine);
+  /// As ServerEndpoint::look_again, for all machines of this cell.
+  void look_again() { wake_watcher(); }
+  std::uint32_t number() const { return number_; }
 
  private:
   /// What happened to one machine since the watcher's last look: its announcement is gone, then
@@ -113,6 +116,8 @@ class Cell {
   bool speaks_for_another(const std::string& participant, const std::string& machine) const;
   bool has_room();
   bool claim(const std::string& machine);
+  bool may_serve(const Arrived& arrived) const;
+  void lose_gateway(const std::string& machine, Attachment& attached);
   std::shared_ptr<Attachment> attach(const std::string& machine, bool has_line);
   void try_ready(Attachment& machine);
 

@@ -1,8 +1,12 @@
 // One machine: what it does now and the commands to it, its job queue, its setup, what its control retained, and its runs.
+import { pathOf, send } from '../api/request';
 import { addressOf } from '../app/route';
 import { useFeed } from '../live/use_feed';
 import { durationText, percentDigits, progressOf } from '../live/progress';
+import { Allowed } from '../parts/allowed';
+import { CommandFault, useCommand } from '../parts/command';
 import { StatePill } from '../parts/state_pill';
+import { SureButton } from '../parts/sure_button';
 import { Tabs } from '../parts/tabs';
 import { dateTimeText, numberText, texts } from '../texts/texts';
 import { Blocks } from './blocks';
@@ -56,6 +60,21 @@ function Now({ name }: { name: string }) {
   );
 }
 
+/// Another gateway than the one before is taken when a person says so.
+function ConfirmGateway({ name }: { name: string }) {
+  const t = texts().machine;
+  const command = useCommand();
+  return (
+    <Allowed to="operate" machine={name}>
+      <p class="buttons">
+        <SureButton label={t.confirmGateway} question={t.confirmGatewaySure(name)} disabled={command.isBusy}
+          onSure={() => void command.send(() => send('POST', pathOf('machines', name, 'confirm-gateway')))} />
+      </p>
+      <CommandFault command={command} />
+    </Allowed>
+  );
+}
+
 function Head({ name }: { name: string }) {
   const feed = useFeed(`machine:${name}`);
   const t = texts().machine;
@@ -79,6 +98,7 @@ function Head({ name }: { name: string }) {
       {machine.held && <p class="notice warn">{t.heldBy(machine.held.who, machine.held.reason, dateTimeText(machine.held.since))}</p>}
       {machine.queue_hold && <p class="notice warn">{t.queueHeldBy(machine.queue_hold.who, machine.queue_hold.reason, dateTimeText(machine.queue_hold.since))}</p>}
       {machine.notices.map((notice) => <p key={notice} class="notice warn">{t.notice}: {notice}</p>)}
+      {machine.unconfirmed_gateway !== null && <ConfirmGateway name={name} />}
     </div>
   );
 }

@@ -12,7 +12,7 @@ export function status(changed: Partial<NonNullable<Status>> = {}): NonNullable<
 
 export function machine(changed: Partial<Machine> = {}, changedStatus: Partial<NonNullable<Status>> = {}): Machine {
   return {
-    name: 'lathe-1', control: 'centurion', description: null, gateway_version: '0.1.0', connected: true, stale: false, clock_ahead_seconds: 0, notices: [], held: null, queue_hold: null,
+    name: 'lathe-1', control: 'centurion', description: null, gateway_version: '0.1.0', connected: true, stale: false, unconfirmed_gateway: null, clock_ahead_seconds: 0, notices: [], held: null, queue_hold: null,
     first_seen: '2026-11-23T10:00:00Z', last_seen: '2026-11-23T12:00:00Z',
     starts: { at: ['block', 'line', 'byte', 'tool', 'count'], head: false, memory: true, pass: true, mdi: 1 }, positions: { offsets: ['G54', 'G55'], datum_axes: 'Z', tool_axes: 'XZ', x_diameter: true, zero_only: true, playback: false }, display: { units: 'inch', x: 'diameter', fields: ['compensation', 'tool_length_x', 'tool_length_z', 'tool_radius', 'work_system', 'incremental', 'cycle'] }, status: status(changedStatus), ...changed,
   };

@@ -81,6 +81,7 @@ TEST(ApiJson, GivesBackWhatItRead) {
   machine["held"] = nullptr;
   machine["queue_hold"] = nullptr;
   machine["stale"] = false;
+  machine["unconfirmed_gateway"] = nullptr;
   EXPECT_EQ(nlohmann::json(to_json_value(*from_json<client::Machine>(machine))), machine);
   auto run = test_support::run_json("r1", "completed");
   run["job"] = nullptr;

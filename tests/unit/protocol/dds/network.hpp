@@ -62,12 +62,14 @@ struct TestServer {
   Inbox<Record> records;
   Inbox<CommandResult> results;
   Inbox<BlockRequest> requests;
+  std::function<bool(const Announce&)> may_serve;
   std::unique_ptr<ServerEndpoint> endpoint;  // last: its callbacks use the inboxes
 
   ServerHandlers handlers() {
     return {.on_announce = [this](Announce m) { announces.put(std::move(m)); },
             .on_lost = [this](std::string m) { lost.put(std::move(m)); },
             .on_rival = [this](const std::string&, bool is_there) { rivals.put(is_there); },
+            .may_serve = may_serve,
             .on_status = [this](Status m) { statuses.put(std::move(m)); },
             .on_record = [this](Record m) { records.put(std::move(m)); },
             .on_command_result = [this](CommandResult m) { results.put(std::move(m)); },
@@ -101,8 +103,9 @@ class Network : public testing::Test {
   }
 
   /// The first server of a test looks for a domain whose port no other process holds.
-  std::unique_ptr<TestServer> open_server() {
+  std::unique_ptr<TestServer> open_server(std::function<bool(const Announce&)> may_serve = {}) {
     auto server = std::make_unique<TestServer>();
+    server->may_serve = std::move(may_serve);
     for (int tries = 0; tries < 200; ++tries) {
       auto opened = ServerEndpoint::open(options_, server->handlers());
       if (opened) {

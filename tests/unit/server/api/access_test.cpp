@@ -138,6 +138,7 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
   const std::vector<Try> tries{
       {"POST", "/api/v1/machines/lathe-1/commands",
        R"({"action":"switch","name":"emergency_stop","value":0})"},
+      {"POST", "/api/v1/machines/lathe-1/confirm-gateway", ""},
       {"POST", "/api/v1/machines/lathe-1/mdi", R"({"text":"G0 X1"})"},
       {"POST", "/api/v1/machines/lathe-1/datum", R"({"axis":"Z","value":0,"offset":"G54"})"},
       {"POST", "/api/v1/machines/lathe-1/jog", R"({"axis":"Z","distance":1,"unit":"mm"})"},
@@ -172,7 +173,7 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
   for (const auto& [method, path, body] : tries)
     expect_error(as(secret, method, path, body), 403, "denied", "lathe-1");
   EXPECT_TRUE(machines_.commands.empty() && machines_.started.empty()) << "nothing went out";
-  EXPECT_TRUE(machines_.positions.empty()) << "nor this";
+  EXPECT_TRUE(machines_.positions.empty() && machines_.confirmed.empty()) << "nor this";
   // With the machine in his group the same requests go through to the handlers.
   EXPECT_EQ(call("PUT", "/api/v1/machine-groups/mills/machines/lathe-1").status, 200);
   for (const auto& [method, path, body] : tries)

@@ -57,7 +57,14 @@ class FakeMachines final : public machines::MachineControl {
         "X 12.5 mm", R"({"axis":"X","position":12.5,"moved":-1.5,"unit":"mm","reached":true})"};
   }
 
+  Result<std::string> confirm_gateway(const std::string& name) override {
+    confirmed.push_back(name);
+    if (refusal) return fail(*refusal);
+    return "gateway 0.1.0";
+  }
+
   std::vector<machines::MachineView> views;
+  std::vector<std::string> confirmed;  ///< machines whose other gateway is theirs
   std::vector<machines::PositionRequest> positions;
   std::vector<machines::JogRequest> jogs;
   std::vector<machines::ValueQuery> asked;

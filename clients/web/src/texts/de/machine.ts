@@ -7,6 +7,8 @@ export const machine: typeof Shape = {
     parts: 'Teile dieser Maschine',
     tabs: { now: 'Jetzt', queue: 'Aufträge', setup: 'Einrichtung', memory: 'Speicher', runs: 'Läufe' },
     notice: 'Zwischen Server und Gateway',
+    confirmGateway: 'Das andere Gateway nehmen',
+    confirmGatewaySure: (machine: string) => `Der Lauf von ${machine} ist zu Ende, und das wartende Gateway ist das der Maschine? Zuerst zur Maschine sehen.`,
     heldBy: (who, reason, since) => `Angehalten von ${who} seit ${since}${reason === null ? '' : `: ${reason}`}`,
     queueHeldBy: (who, reason, since) => `Die Auftragsliste ist angehalten von ${who} seit ${since}: ${reason}`,
     run: 'Lauf',

@@ -5,6 +5,8 @@ export const machine = {
     parts: 'Parts of this machine',
     tabs: { now: 'Now', queue: 'Queue', setup: 'Setup', memory: 'Memory', runs: 'Runs' },
     notice: 'Between server and gateway',
+    confirmGateway: 'Take the other gateway',
+    confirmGatewaySure: (machine: string) => `The run of ${machine} is over, and the gateway that waits is its gateway? Look at the machine first.`,
     heldBy: (who: string, reason: string | null, since: string) => `Held by ${who} since ${since}${reason === null ? '' : `: ${reason}`}`,
     queueHeldBy: (who: string, reason: string, since: string) => `The queue is held by ${who} since ${since}: ${reason}`,
     run: 'Run',
