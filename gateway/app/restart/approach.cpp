@@ -34,17 +34,8 @@ bool Approach::differs(Axis axis) const {
   return to.has(axis) && std::fabs(to.raw(axis) - from.raw(axis)) > kSame;
 }
 
-std::optional<Axis> Approach::axis_elsewhere() const {
-  std::optional<Axis> found;
-  for (const Axis axis : kAllAxes) {
-    if (!differs(axis)) continue;
-    if (found) return std::nullopt;
-    found = axis;
-  }
-  return found;
-}
-
 Approach::Plan Approach::plan() const {
+  if (is_lathe) return lathe_plan();
   Plan plan;
   const bool has_tool_axis = to.has(tool_axis);
   const double now = from.raw(tool_axis);
@@ -60,16 +51,11 @@ Approach::Plan Approach::plan() const {
   }
   const bool is_there = !is_elsewhere && std::fabs(target - now) <= kSame;
   if (is_there) return plan;
-  const auto only = is_lathe ? axis_elsewhere() : std::nullopt;
-  if (only == Axis::X || only == Axis::Z) {
-    plan.after.push_back({along(*only, to.raw(*only)), plunge_feed()});
-    return plan;
-  }
   if (has_tool_axis && plan.clearance - now > kSame)
     plan.before.push_back({along(tool_axis, plan.clearance), {}});
   if (is_elsewhere) plan.before.push_back({others, {}});
   if (!has_tool_axis || plan.clearance - target <= kSame) return plan;
-  if (!is_lathe && plan.clearance - target > kPlunge)
+  if (plan.clearance - target > kPlunge)
     plan.after.push_back({along(tool_axis, target + kPlunge), {}});
   plan.after.push_back({along(tool_axis, target), plunge_feed()});
   return plan;
@@ -78,6 +64,10 @@ Approach::Plan Approach::plan() const {
 void write_approach(const Approach::Plan& plan, const DeliveredState& state,
                     const interpreter::Origin& origin, interpreter::EventSink& out) {
   const auto move = [&](const ApproachMove& one) {
+    if (one.arc) {
+      return out.on_arc({origin, one.to, one.arc->center_first, one.arc->center_second,
+                         one.arc->plane, one.arc->turn, one.arc->sweep, *one.feed, true});
+    }
     if (one.feed) return out.on_line({origin, one.to, *one.feed, true});
     out.on_rapid({origin, one.to, true});
   };

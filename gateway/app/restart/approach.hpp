@@ -1,16 +1,19 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gateway/app/restart/delivered_state.hpp"
+#include "gateway/app/restart/passed_path.hpp"
 
 namespace dripline::gateway {
 
 /// One move of an approach; with a feed the last part of it.
 struct ApproachMove {
-  interpreter::Position to;  ///< only the axes that move
-  std::optional<Feed> feed;  ///< absent: rapid
+  interpreter::Position to;                      ///< only the axes that move
+  std::optional<Feed> feed;                      ///< absent: rapid
+  std::optional<interpreter::PathArc> arc = {};  ///< with a feed
 };
 
 /// From where the axes are to where the program continues. The safe default for controls whose
@@ -18,10 +21,8 @@ struct ApproachMove {
 /// where the program or the machine has been; the other axes; spindle and coolant; down again,
 /// rapidly to kPlunge above the place, the rest at the feed of the program.
 ///
-/// A lathe's Z is its tool axis here, as it is for the Centurion's own search (manual: RUN and
-/// VERIFY): it retracts in front of the part, and its path back is a feed from the clearance on. A
-/// tool that has only moved along X, or only along Z, goes straight back: at the floor of a groove,
-/// the path in front of the part is through its wall.
+/// A lathe has no such place: in front of the part is beyond a wall for a tool in a groove. Its
+/// tool goes back where it has been (lathe_approach.cpp), or the operator brings it to the place.
 struct Approach {
   bool is_lathe = false;
   interpreter::Axis tool_axis = interpreter::Axis::Z;
@@ -30,11 +31,15 @@ struct Approach {
   interpreter::Position highest;
   std::optional<Feed> feed;  ///< of the program, if it has had one
   bool spindle_turns = false;
+  // Of a lathe.
+  const PassedPath* passed = nullptr;                    ///< null: not known
+  std::optional<interpreter::Position> stopped_at = {};  ///< where the run came to rest
 
   struct Plan {
     std::vector<ApproachMove> before;  ///< the spindle is switched on after these
     std::vector<ApproachMove> after;
     double clearance = 0;  ///< of the tool axis, millimeters
+    std::string fault;     ///< why there is none, and what to do; empty: there is one
   };
   Plan plan() const;
 
@@ -44,8 +49,13 @@ struct Approach {
  private:
   Feed plunge_feed() const;
   bool differs(interpreter::Axis axis) const;
-  /// Where it is one alone.
-  std::optional<interpreter::Axis> axis_elsewhere() const;
+  Plan lathe_plan() const;
+  bool is_beyond_all() const;
+  bool add_passed(Plan& plan) const;
+  bool add_from_outside(Plan& plan) const;
+  bool add_straight(Plan& plan) const;
+  void add_route(Plan& plan, const std::vector<PassedMove>& route) const;
+  std::string lathe_fault(bool are_others_elsewhere) const;
 };
 
 /// What a restart gives to the machine before the program's own events: tool, the moves, spindle

@@ -61,6 +61,7 @@ void EventTracker::close(DeliveredState state, std::uint64_t last, OnOpen on_ope
   alarm_.reset();
   end_.reset();
   measured_block_ = 0;
+  also_ = nullptr;
 }
 
 void EventTracker::expect(Axis axis, double value) {
@@ -123,6 +124,7 @@ void EventTracker::measure_move(const interpreter::Origin& origin, const Positio
 }
 
 void EventTracker::on_rapid(const interpreter::Rapid& event) {
+  if (also_ != nullptr) also_->on_rapid(event);
   measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kRapid);
   move_to(event.origin, event.to);
@@ -130,6 +132,7 @@ void EventTracker::on_rapid(const interpreter::Rapid& event) {
 }
 
 void EventTracker::on_line(const interpreter::Line& event) {
+  if (also_ != nullptr) also_->on_line(event);
   measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kLine);
   state_.feed = event.feed;
@@ -138,6 +141,7 @@ void EventTracker::on_line(const interpreter::Line& event) {
 }
 
 void EventTracker::on_arc(const interpreter::Arc& event) {
+  if (also_ != nullptr) also_->on_arc(event);
   measure_move(event.origin, event.to, arc_length(state_.position, event));
   add(kArc + 16 * static_cast<std::uint64_t>(event.plane) +
       64 * static_cast<std::uint64_t>(event.turn));
@@ -150,6 +154,7 @@ void EventTracker::on_arc(const interpreter::Arc& event) {
 }
 
 void EventTracker::on_thread(const interpreter::Thread& event) {
+  if (also_ != nullptr) also_->on_thread(event);
   const double length = event.arc ? arc_length(state_.position, interpreter::arc_of(event))
                                   : distance(state_.position, event.to);
   measure_move(event.origin, event.to, length);
@@ -161,6 +166,7 @@ void EventTracker::on_thread(const interpreter::Thread& event) {
 
 /// The axes are where it ended: nothing else names that place.
 void EventTracker::on_probe(const interpreter::Probe& event) {
+  if (also_ != nullptr) also_->on_probe(event);
   if (event.result) {
     const Position& at = event.result->at;
     measure_move(event.origin, at,
@@ -194,6 +200,7 @@ void EventTracker::on_coolant(const interpreter::Coolant& event) {
 }
 
 void EventTracker::on_tool(const interpreter::ToolChange& event) {
+  if (also_ != nullptr) also_->on_tool(event);
   add(kTool + 16 * static_cast<std::uint64_t>(static_cast<std::uint32_t>(event.number)));
   if (event.is_preselection) {
     state_.next_tool = event.number;
@@ -217,11 +224,13 @@ void EventTracker::note_code(int code) {
 }
 
 void EventTracker::on_miscellaneous(const interpreter::Miscellaneous& event) {
+  if (also_ != nullptr) also_->on_miscellaneous(event);
   note_code(event.code);
   EventGate::on_miscellaneous(event);
 }
 
 void EventTracker::on_pin(const interpreter::PinChange& event) {
+  if (also_ != nullptr) also_->on_pin(event);
   note_code(DeliveredState::kOutput + 100 * static_cast<int>(event.axis) + event.output % 100);
   EventGate::on_pin(event);
 }
@@ -229,6 +238,11 @@ void EventTracker::on_pin(const interpreter::PinChange& event) {
 void EventTracker::on_override_inhibit(const interpreter::OverrideInhibit& event) {
   state_.inhibit = event;
   EventGate::on_override_inhibit(event);
+}
+
+void EventTracker::on_stop(const interpreter::Stop& event) {
+  if (also_ != nullptr) also_->on_stop(event);
+  EventGate::on_stop(event);
 }
 
 void EventTracker::on_alarm(const interpreter::Alarm& event) {
@@ -249,6 +263,7 @@ void EventTracker::note_found(const interpreter::Origin& origin) {
 }
 
 void EventTracker::on_block_end(const interpreter::Origin& origin) {
+  if (also_ != nullptr) also_->on_block_end(origin);
   (*paths_)[origin.block % kPaths] = {origin.block, state_.path, length_};
   state_.ended = origin;
   if (origin.block == measured_block_ && measured_block_ != 0) {

@@ -52,6 +52,9 @@ class EventTracker final : public interpreter::EventGate {
   void close(DeliveredState state, std::uint64_t last, OnOpen on_open);
   /// At once: nothing was executed before.
   void open_now();
+  /// Until it is closed again, what comes goes to `also` too, a sink that must outlive that; the
+  /// gate keeps nothing from it.
+  void show(interpreter::EventSink& also) { also_ = &also; }
   /// The program relies on that axis being there, though it has not moved it.
   void expect(interpreter::Axis axis, double value);
   bool is_closed() const { return is_closed_; }
@@ -98,6 +101,7 @@ class EventTracker final : public interpreter::EventGate {
   void on_miscellaneous(const interpreter::Miscellaneous& event) override;
   void on_pin(const interpreter::PinChange& event) override;
   void on_override_inhibit(const interpreter::OverrideInhibit& event) override;
+  void on_stop(const interpreter::Stop& event) override;
   void on_alarm(const interpreter::Alarm& event) override;
   void on_end(const interpreter::End& event) override;
   void on_block_end(const interpreter::Origin& origin) override;
@@ -125,6 +129,7 @@ class EventTracker final : public interpreter::EventGate {
   double length_ = 0;
   Moves moves_;
   bool is_closed_ = false;
+  interpreter::EventSink* also_ = nullptr;
   std::uint64_t last_ = 0;
   OnOpen on_open_;
   std::optional<Wanted> wanted_;

@@ -51,6 +51,8 @@ Rebuild::State Rebuild::work() {
       return state_ = tail();
     case Phase::Search:
       return state_ = search();
+    case Phase::Route:
+      return state_ = route();
     case Phase::Prove:
       return state_ = prove();
     case Phase::Advance:
@@ -79,7 +81,7 @@ Rebuild::State Rebuild::find_programs() {
   const auto target = parts_.plan.known_target();
   target_ = target.value_or(0);
   const bool is_earlier = !target || *target < parts_.plan.ending.executed.executed;
-  return is_earlier ? begin_tail() : begin_proof();
+  return is_earlier ? begin_tail() : begin_route();
 }
 
 /// What the path back to an earlier place goes over: clamps, and what else the program went over
@@ -97,7 +99,7 @@ Rebuild::State Rebuild::tail() {
   if (step == Step::NeedsText) return State::NeedsText;
   if (step == Step::More) return State::Working;
   highest_ = parts_.tracker.delivered().highest;
-  return parts_.plan.known_target() ? begin_proof() : begin_search();
+  return parts_.plan.known_target() ? begin_route() : begin_search();
 }
 
 /// Why the look-through comes to something else.
@@ -148,6 +150,7 @@ bool Rebuild::load(std::uint64_t block) {
   next_answer_ = 0;
   used_ = {checkpoint->answers, checkpoint->prompts};
   lacks_answer_ = false;
+  last_step_ = StepState::Ran;
   parts_.tracker.close(checkpoint->delivered, 0, nullptr);
   return true;
 }
@@ -222,8 +225,7 @@ Rebuild::State Rebuild::search() {
   if (step == Step::More) return State::Working;
   if (parts_.tracker.found() > 0) {
     target_ = parts_.tracker.found() - 1;
-    place_ = parts_.plan.nearest(target_);
-    return begin_proof();
+    return begin_route();
   }
   if (place_ == 0) {
     return fail_with(fmt::format("{} is not among the {} blocks that run {} has executed",

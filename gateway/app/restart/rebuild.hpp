@@ -60,7 +60,7 @@ class Rebuild {
   static constexpr std::uint64_t kBlocksAtOnce = 4096;
 
  private:
-  enum class Phase { Programs, Tail, Search, Prove, Advance, Open, Preview };
+  enum class Phase { Programs, Tail, Search, Route, Prove, Advance, Open, Preview };
   /// What a look-through has come to.
   enum class Step { Done, More, NeedsText, Ended, Failed };
 
@@ -76,6 +76,8 @@ class Rebuild {
   State preview();
   State begin_tail();
   State begin_search();
+  State begin_route();
+  State route();
   State begin_proof();
   State begin_advance();
   bool load(std::uint64_t block);
@@ -84,6 +86,7 @@ class Rebuild {
   void on_open(interpreter::EventSink& out);
   std::string tilt_fault(const Approach& approach) const;
   std::string thread_fault() const;
+  std::string chain_fault() const;
   bool has_approach() const;
   machine::ToolLengths take_lengths();
   void expect_unmoved(const machine::ToolLengths& lengths);
@@ -109,7 +112,8 @@ class Rebuild {
   std::optional<machine::ToolLengths> lengths_;
   interpreter::Position highest_;  ///< up to the block executed last, for a place before it
   std::string approach_fault_;     ///< why no approach was given to the machine
-  std::size_t preview_steps_ = 0;
+  PassedPath passed_;              ///< of the tool, from some place before the target on
+  std::size_t route_steps_ = 0, preview_steps_ = 0;
   RestartReport report_;
 };
 

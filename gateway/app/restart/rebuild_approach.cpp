@@ -48,6 +48,9 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   }
   Approach approach;
   approach.is_lathe = parts_.is_lathe;
+  passed_.stop_at(report_.stopped_at);
+  approach.passed = &passed_;
+  approach.stopped_at = report_.stopped_at;
   approach.tool_axis = tool_axis_.value_or(interpreter::Axis::Z);
   approach.from = report_.machine;
   approach.to = report_.delivered.position;
@@ -61,6 +64,8 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   report_.approach = approach.plan();
   approach_fault_ = tilt_fault(approach);
   if (approach_fault_.empty()) approach_fault_ = thread_fault();
+  if (approach_fault_.empty()) approach_fault_ = chain_fault();
+  if (approach_fault_.empty()) approach_fault_ = report_.approach.fault;
   if (!approach_fault_.empty()) return;
   write_approach(report_.approach, report_.delivered, report_.after, out);
   const auto& stopped_at = report_.stopped_at;
@@ -70,18 +75,30 @@ void Rebuild::on_open(interpreter::EventSink& out) {
 }
 
 bool Rebuild::has_approach() const {
-  return !report_.approach.before.empty() || !report_.approach.after.empty();
+  return !report_.approach.before.empty() || !report_.approach.after.empty() ||
+         !report_.approach.fault.empty();
 }
 
 /// A tap, or a tool in a thread, leaves it only along the thread and with the spindle.
 std::string Rebuild::thread_fault() const {
-  if (!parts_.plan.ending.is_in_thread || !report_.stopped_at || !has_approach()) return {};
+  if (!report_.stopped_at || !has_approach()) return {};
+  if (!parts_.plan.ending.is_in_thread && !passed_.is_in_thread(*report_.stopped_at)) return {};
   for (const interpreter::Axis axis : interpreter::kAllAxes) {
     const double moved = report_.machine.raw(axis) - report_.stopped_at->raw(axis);
     if (std::fabs(moved) > kMoved) return {};  // it was retracted
   }
   return "the tool stopped in a thread, and the approach would pull it out: retract it at the "
          "machine first, a tap with its spindle reversed";
+}
+
+/// The spindle's angle is lost, and the control waits for it only where a thread begins.
+std::string Rebuild::chain_fault() const {
+  const std::uint64_t block = passed_.thread_begins_in();
+  if (block == 0) return {};
+  return fmt::format(
+      "block {} continues the thread that begins in block {}, and would not meet it again: restart "
+      "there, block={}",
+      report_.after.block + 1, block, block);
 }
 
 /// The approach goes up and down along the tool axis. With a head that tilts the tool that is

@@ -53,7 +53,10 @@ Json feed_json(const Feed& feed) {
 Json moves_json(const Approach::Plan& plan) {
   Json moves = Json::array();
   const auto add = [&moves](const ApproachMove& move) {
-    Json json{{"move", move.feed ? "feed" : "rapid"}, {"to", axes_json(move.to)}};
+    Json json{{"move", move.arc    ? "arc"
+                       : move.feed ? "feed"
+                                   : "rapid"},
+              {"to", axes_json(move.to)}};
     if (move.feed) json["feed"] = feed_json(*move.feed);
     moves.push_back(std::move(json));
   };

@@ -326,14 +326,7 @@ TEST(Approach, PlungesSlowlyWithoutAFeedThatCanBeUsed) {
   EXPECT_EQ(approach.plan().after.back().feed->length().mm(), Approach::kPlungeFeedPerMinute);
 }
 
-TEST(Approach, FeedsAllTheWayOnALathe) {
-  Approach approach = mill();
-  approach.is_lathe = true;
-  ASSERT_EQ(approach.plan().after.size(), 1u);
-  EXPECT_TRUE(approach.plan().after[0].feed);
-}
-
-/// Along Z it would go through the wall of the groove.
+/// In front of the part is beyond the wall of a groove.
 TEST(Approach, GoesStraightBackOutOfAGrooveOnALathe) {
   Approach approach = mill();
   approach.is_lathe = true;
@@ -346,7 +339,8 @@ TEST(Approach, GoesStraightBackOutOfAGrooveOnALathe) {
   EXPECT_FALSE(plan.after[0].to.has(Axis::Z));
   EXPECT_TRUE(plan.after[0].feed);
   approach.from = at(19.2, 0, -21);
-  EXPECT_TRUE(approach.plan().before.front().to.has(Axis::Z)) << "else in front of the part first";
+  EXPECT_TRUE(approach.plan().before.empty());
+  EXPECT_FALSE(approach.plan().fault.empty()) << "both are elsewhere, and nothing is known";
   approach.from = at(30, 0, -26);
   const auto floor = approach.plan();
   EXPECT_TRUE(floor.before.empty()) << "along the floor of a groove";
@@ -354,6 +348,8 @@ TEST(Approach, GoesStraightBackOutOfAGrooveOnALathe) {
   EXPECT_EQ(floor.after[0].to.raw(Axis::Z), -20);
   EXPECT_FALSE(floor.after[0].to.has(Axis::X));
   EXPECT_TRUE(floor.after[0].feed);
+  approach.stopped_at = at(19.2, 0, -20);
+  EXPECT_FALSE(approach.plan().fault.empty()) << "it stopped elsewhere";
   approach.is_lathe = false;
   approach.from = at(19.2, 0, -20);
   EXPECT_TRUE(approach.plan().before.front().to.has(Axis::Z)) << "a mill goes up";

@@ -136,7 +136,7 @@ std::size_t length_up_to(const RestartFixture::Path& path, std::uint64_t block) 
 
 std::string difference(const RestartFixture::Path& whole, const RestartFixture::Path& path,
                        std::uint64_t after) {
-  constexpr std::size_t kMaxApproach = 12;
+  constexpr std::size_t kMaxApproach = 32;
   const std::size_t begun = length_up_to(whole, after);
   const std::size_t rest = whole.size() - begun;
   if (path.size() < rest || path.size() > rest + kMaxApproach) {

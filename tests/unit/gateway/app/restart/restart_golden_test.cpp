@@ -44,6 +44,13 @@ class RestartOfGolden : public testing::TestWithParam<std::string> {
     if (!undisturbed->run_on(20'000)) return std::nullopt;
     return Whole{undisturbed->path, undisturbed->last_end(), undisturbed->steps()};
   }
+  /// No approach leads to a tilted tool (RestartOfAHead), nor on a lathe from a place where the
+  /// tool has not been (LatheApproach); the simulated axes are where the run began.
+  static bool is_left_to_operator(const std::string& reason) {
+    return reason.find("the tool is tilted") != std::string::npos ||
+           reason.find("is known to be free") != std::string::npos ||
+           reason.find("continues the thread") != std::string::npos;
+  }
   void cut_off_and_restart(const Whole& whole, std::size_t steps) {
     const auto cut = shop();
     ASSERT_TRUE(cut->start_program("P").accepted);
@@ -54,9 +61,7 @@ class RestartOfGolden : public testing::TestWithParam<std::string> {
     const std::uint64_t executed = cut->last_end().executed;
     cut->path.clear();
     const auto report = cut->begin_restart("P", run);
-    // no approach leads to a tilted tool (RestartOfAHead)
-    const bool is_tilted = cut->last_end().reason.find("the tool is tilted") != std::string::npos;
-    if (!report.is_object() && is_tilted) return;
+    if (!report.is_object() && is_left_to_operator(cut->last_end().reason)) return;
     ASSERT_TRUE(report.is_object())
         << cut->start_answer.reason << cut->last_end().reason << " after block " << executed;
     EXPECT_EQ(report["after"]["block"], executed);

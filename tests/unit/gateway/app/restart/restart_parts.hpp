@@ -22,6 +22,14 @@ inline constexpr Part kParts[] = {
      "F600\nX5.\nX[9.+#1]\nG80\n#1=#1+1\nEND1\nM30\nO0561\nG91 G01 X2. F500\nG02 X1. Y1. I1. "
      "J0\nG90 "
      "M99\n"},
+    {"fanuc-t", "",
+     "O0542\nG21 G40\n#1=1\nWHILE[#1LE6]DO1\nT0101\nG97 S900 M03\nM08\nG00 X52. Z2.\nG71 U2. "
+     "R.5\nG71 "
+     "P10 Q20 U.4 W.1 F.3\nN10 G00 X30.\nG01 Z-10.\nN20 X50. Z-[20+#1]\nG42 G00 X34. Z4.\nG01 "
+     "X30. "
+     "Z1.\nZ-10.\nX54. Z-22.\nG40 G00 X60.\nG00 Z-25.\nG75 R.5\nG75 X44. Z-28. P1500 Q1500 "
+     "F.1\nM98 "
+     "P543\nG00 X60.\nX0 Z0\n#1=#1+1\nEND1\nM30\nO0543\nG01 U2. F.2\nW-1.\nM99\n"},
     {"rs274ngc",
      "units = \"mm\"\n[[tool]]\nnumber = 1\nradius = 2.0\n[control]\nprofile = \"linuxcnc\"\n",
      "G21 G90 F900\no1 sub\nG91 G1 X1\nG2 X1 Y1 I1 J0\nG90\no1 endsub\nT1 M6\nM3 "

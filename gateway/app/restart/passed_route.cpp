@@ -1,0 +1,296 @@
+#include "gateway/app/restart/passed_route.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+
+namespace dripline::gateway {
+
+using interpreter::PathArc;
+using interpreter::Turn;
+
+namespace {
+
+constexpr double kSamePoint = 1e-6;  ///< millimeters: of computed points
+
+PlanePlace difference(PlanePlace a, PlanePlace b) {
+  return {a.x - b.x, a.z - b.z};
+}
+double dot(PlanePlace a, PlanePlace b) {
+  return a.x * b.x + a.z * b.z;
+}
+double cross(PlanePlace a, PlanePlace b) {
+  return a.x * b.z - a.z * b.x;
+}
+
+double arc_angle(const PathArc& arc, PlanePlace place) {
+  return std::atan2(place.x - arc.center_second.mm(), place.z - arc.center_first.mm());
+}
+
+double move_length(const PassedMove& move) {
+  if (!move.arc) return distance(move.from, move.to);
+  const PlanePlace center{move.arc->center_second.mm(), move.arc->center_first.mm()};
+  return distance(move.from, center) * std::fabs(move.arc->sweep.radians());
+}
+
+}  // namespace
+
+double distance(PlanePlace a, PlanePlace b) {
+  return std::hypot(a.x - b.x, a.z - b.z);
+}
+
+PlanePlace PassedMove::at(double part) const {
+  if (part <= 0) return from;
+  if (part >= 1) return to;
+  if (!arc) return {from.x + part * (to.x - from.x), from.z + part * (to.z - from.z)};
+  const PlanePlace center{arc->center_second.mm(), arc->center_first.mm()};
+  const double radius = distance(from, center);
+  const double turn = part * std::fabs(arc->sweep.radians());
+  const double angle = arc_angle(*arc, from) + (arc->turn == Turn::Counterclockwise ? turn : -turn);
+  return {center.x + radius * std::sin(angle), center.z + radius * std::cos(angle)};
+}
+
+std::optional<double> PassedMove::part_at(PlanePlace place, double tolerance) const {
+  if (distance(place, from) <= tolerance) return 0;
+  if (distance(place, to) <= tolerance) return 1;
+  double part = 0;
+  if (arc) {
+    const double full = std::fabs(arc->sweep.radians());
+    double turned = arc_angle(*arc, place) - arc_angle(*arc, from);
+    if (arc->turn == Turn::Clockwise) turned = -turned;
+    turned = std::fmod(turned, 2 * Angle::kPi);
+    if (turned < 0) turned += 2 * Angle::kPi;
+    part = full > 0 ? turned / full : 2;
+  } else {
+    const PlanePlace along = difference(to, from);
+    const double square = dot(along, along);
+    part = square > 0 ? dot(difference(place, from), along) / square : 2;
+  }
+  if (!(part > 0 && part < 1) || distance(at(part), place) > tolerance) return std::nullopt;
+  return part;
+}
+
+PassedMove PassedMove::piece(double first, double last) const {
+  PassedMove move{at(first), at(last), is_rapid};
+  if (!arc) return move;
+  move.arc = arc;
+  move.arc->sweep = Angle::radians(std::fabs(arc->sweep.radians() * (last - first)));
+  if (last < first) {
+    const bool was_clockwise = arc->turn == Turn::Clockwise;
+    move.arc->turn = was_clockwise ? Turn::Counterclockwise : Turn::Clockwise;
+  }
+  return move;
+}
+
+namespace {
+
+/// Moves cut where they meet: places, and pieces between them.
+class MoveNetwork {
+ public:
+  explicit MoveNetwork(const std::vector<PassedMove>& moves) : moves_(moves), cuts_(moves.size()) {
+    for (std::size_t i = 0; i < moves_.size(); ++i) {
+      cut(i, 0, moves_[i].from);
+      cut(i, 1, moves_[i].to);
+      for (std::size_t k = 0; k < i; ++k) meet(i, k);
+    }
+  }
+  struct Found {
+    std::size_t number = 0;
+    PlanePlace place;
+  };
+  /// The nearest place of a move.
+  std::optional<Found> add(PlanePlace place);
+  std::optional<std::vector<PassedMove>> shortest(std::size_t from, std::size_t to);
+
+ private:
+  struct Cut {
+    double part;
+    std::size_t place;
+  };
+  struct Edge {
+    std::size_t to = 0, move = 0;
+    double first = 0, last = 0;
+  };
+
+  std::size_t number(PlanePlace place);
+  void cut(std::size_t move, double part, PlanePlace place) {
+    cuts_[move].push_back({part, number(place)});
+  }
+  void meet(std::size_t i, std::size_t k);
+  void cut_at_ends(std::size_t move, const PassedMove& other);
+  void connect();
+  std::vector<PassedMove> path_to(std::size_t from, std::size_t to) const;
+
+  const std::vector<PassedMove>& moves_;
+  std::vector<std::vector<Cut>> cuts_;
+  std::vector<PlanePlace> places_;
+  std::unordered_multimap<std::int64_t, std::size_t> cells_;
+  std::vector<std::vector<Edge>> edges_;
+  std::vector<std::pair<std::size_t, Edge>> reached_by_;
+};
+
+std::int64_t cell_of(double x, double z) {
+  constexpr double kCell = 0.001;
+  const auto row = static_cast<std::int64_t>(std::llround(x / kCell));
+  const auto column = static_cast<std::int64_t>(std::llround(z / kCell));
+  return row * 1'000'003 + column;
+}
+
+std::size_t MoveNetwork::number(PlanePlace place) {
+  for (const double x : {place.x, place.x - kSamePoint, place.x + kSamePoint}) {
+    for (const double z : {place.z, place.z - kSamePoint, place.z + kSamePoint}) {
+      const auto [begin, end] = cells_.equal_range(cell_of(x, z));
+      for (auto found = begin; found != end; ++found) {
+        if (distance(places_[found->second], place) <= kSamePoint) return found->second;
+      }
+    }
+  }
+  cells_.emplace(cell_of(place.x, place.z), places_.size());
+  places_.push_back(place);
+  return places_.size() - 1;
+}
+
+std::optional<MoveNetwork::Found> MoveNetwork::add(PlanePlace place) {
+  std::optional<PlanePlace> nearest;
+  for (const PassedMove& move : moves_) {
+    const auto part = move.part_at(place, kNearPlace);
+    if (!part) continue;
+    const PlanePlace found = move.at(*part);
+    if (!nearest || distance(found, place) < distance(*nearest, place)) nearest = found;
+  }
+  if (!nearest) return std::nullopt;
+  for (std::size_t i = 0; i < moves_.size(); ++i) {
+    if (const auto part = moves_[i].part_at(*nearest, kSamePoint)) cut(i, *part, *nearest);
+  }
+  return Found{number(*nearest), *nearest};
+}
+
+void MoveNetwork::cut_at_ends(std::size_t move, const PassedMove& other) {
+  for (const PlanePlace place : {other.from, other.to}) {
+    const auto part = moves_[move].part_at(place, kSamePoint);
+    if (part) cut(move, *part, place);
+  }
+}
+
+/// Sides along X and Z.
+struct Box {
+  PlanePlace low, high;
+};
+
+Box box_of(const PassedMove& move) {
+  if (move.arc) {
+    const PlanePlace center{move.arc->center_second.mm(), move.arc->center_first.mm()};
+    const double radius = distance(move.from, center) + kSamePoint;
+    return {{center.x - radius, center.z - radius}, {center.x + radius, center.z + radius}};
+  }
+  const auto [x1, x2] = std::minmax(move.from.x, move.to.x);
+  const auto [z1, z2] = std::minmax(move.from.z, move.to.z);
+  return {{x1 - kSamePoint, z1 - kSamePoint}, {x2 + kSamePoint, z2 + kSamePoint}};
+}
+
+bool are_apart(const Box& a, const Box& b) {
+  return a.high.x < b.low.x || b.high.x < a.low.x || a.high.z < b.low.z || b.high.z < a.low.z;
+}
+
+/// Arcs are cut where another move ends on them, lines also where they cross.
+void MoveNetwork::meet(std::size_t i, std::size_t k) {
+  const PassedMove &a = moves_[i], &b = moves_[k];
+  if (are_apart(box_of(a), box_of(b))) return;
+  cut_at_ends(i, b);
+  cut_at_ends(k, a);
+  if (a.arc || b.arc) return;
+  const PlanePlace along = difference(a.to, a.from), other = difference(b.to, b.from);
+  const double area = cross(along, other);
+  if (std::fabs(area) < 1e-12) return;
+  const double part = cross(difference(b.from, a.from), other) / area;
+  const double part_of_other = cross(difference(b.from, a.from), along) / area;
+  if (!(part > 0 && part < 1 && part_of_other > 0 && part_of_other < 1)) return;
+  const PlanePlace place = a.at(part);
+  cut(i, part, place);
+  cut(k, part_of_other, place);
+}
+
+void MoveNetwork::connect() {
+  edges_.assign(places_.size(), {});
+  for (std::size_t i = 0; i < cuts_.size(); ++i) {
+    auto& cuts = cuts_[i];
+    std::ranges::sort(cuts, {}, &Cut::part);
+    for (std::size_t k = 1; k < cuts.size(); ++k) {
+      const Cut &a = cuts[k - 1], &b = cuts[k];
+      if (a.place == b.place) continue;
+      edges_[a.place].push_back({b.place, i, a.part, b.part});
+      edges_[b.place].push_back({a.place, i, b.part, a.part});
+    }
+  }
+}
+
+std::optional<std::vector<PassedMove>> MoveNetwork::shortest(std::size_t from, std::size_t to) {
+  connect();
+  using Reached = std::pair<double, std::size_t>;
+  std::vector<double> best(places_.size(), std::numeric_limits<double>::infinity());
+  reached_by_.assign(places_.size(), {});
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> next;
+  best[from] = 0;
+  next.emplace(0, from);
+  while (!next.empty()) {
+    const auto [so_far, place] = next.top();
+    next.pop();
+    if (place == to) return path_to(from, to);
+    if (so_far > best[place]) continue;
+    for (const Edge& edge : edges_[place]) {
+      const double length = so_far + move_length(moves_[edge.move].piece(edge.first, edge.last));
+      if (length >= best[edge.to]) continue;
+      best[edge.to] = length;
+      reached_by_[edge.to] = {place, edge};
+      next.emplace(length, edge.to);
+    }
+  }
+  return std::nullopt;
+}
+
+/// One straight move where pieces continue each other.
+bool join(PassedMove& move, const PassedMove& next) {
+  if (move.arc || next.arc || move.is_rapid != next.is_rapid) return false;
+  const PlanePlace a = difference(move.to, move.from), b = difference(next.to, next.from);
+  const double lengths = std::sqrt(dot(a, a) * dot(b, b));
+  if (dot(a, b) <= 0 || std::fabs(cross(a, b)) > 1e-9 * std::max(lengths, 1.0)) return false;
+  move.to = next.to;
+  return true;
+}
+
+std::vector<PassedMove> MoveNetwork::path_to(std::size_t from, std::size_t to) const {
+  std::vector<PassedMove> pieces;
+  for (std::size_t place = to; place != from; place = reached_by_[place].first) {
+    const Edge& edge = reached_by_[place].second;
+    PassedMove piece = moves_[edge.move].piece(edge.first, edge.last);
+    piece.from = places_[reached_by_[place].first];
+    piece.to = places_[place];
+    pieces.push_back(piece);
+  }
+  std::ranges::reverse(pieces);
+  std::vector<PassedMove> path;
+  for (const PassedMove& piece : pieces)
+    if (path.empty() || !join(path.back(), piece)) path.push_back(piece);
+  return path;
+}
+
+}  // namespace
+
+std::optional<std::vector<PassedMove>> passed_route(const std::vector<PassedMove>& moves,
+                                                    PlanePlace from, PlanePlace to) {
+  MoveNetwork network(moves);
+  const auto first = network.add(from);
+  const auto last = network.add(to);
+  if (!first || !last) return std::nullopt;
+  auto route = network.shortest(first->number, last->number);
+  if (!route) return std::nullopt;
+  if (distance(from, first->place) > kSamePoint)
+    route->insert(route->begin(), PassedMove{from, first->place});
+  if (distance(last->place, to) > kSamePoint) route->push_back(PassedMove{last->place, to});
+  return route;
+}
+
+}  // namespace dripline::gateway
