@@ -309,6 +309,7 @@ Rebuild::State Rebuild::open() {
       report_.modes = parts_.interpreter.modes();
       report_.frame = parts_.interpreter.frame();
     }
+    if (parts_.interpreter.blocks() >= target_) parts_.on_block();
     if (step == Step::Ended && parts_.tracker.is_closed()) {
       return fail_with(
           fmt::format("the path after block {} depends on an answer of run {} that is "
@@ -319,6 +320,7 @@ Rebuild::State Rebuild::open() {
   } else {
     report_.modes = parts_.interpreter.modes();
     report_.frame = parts_.interpreter.frame();
+    parts_.on_block();
   }
   if (const auto equal = compare_ending(); !equal) return fail_with(equal.error().what);
   if (!approach_fault_.empty()) return fail_with(approach_fault_);
@@ -352,6 +354,7 @@ Rebuild::State Rebuild::preview() {
     last_step_ = parts_.interpreter.step(1);
     if (last_step_ == StepState::NeedsText) return State::NeedsText;
     if (last_step_ == StepState::NeedsAnswer) lacks_answer_ = true;
+    parts_.on_block();
     return State::Working;
   }
   report_.next = parts_.tracker.measured();

@@ -32,6 +32,8 @@ class Rebuild {
     bool is_lathe = false;
     /// The axes are at the program's position + these lengths: before the approach.
     std::function<void(const interpreter::Position&, const machine::ToolLengths&)> begin_lengths;
+    /// A block from the place on was interpreted: its modes are in force when it is executed.
+    std::function<void()> on_block;
   };
   /// All references must outlive it.
   explicit Rebuild(Parts parts);

@@ -150,6 +150,7 @@ class RunSession {
   Result<void> begin_check(const Make& make, const interpreter::Setup& setup);
   Result<void> begin_rebuild();
   void end_rebuild();
+  void note_rebuilt();
   void keep_inherited(const Rebuild& rebuild);
   bool resolve(const interpreter::ProbeQuestion& question);
   bool resolve(const interpreter::PromptQuestion& question);
@@ -212,6 +213,7 @@ class RunSession {
   ToolHistory tool_history_;
   std::unique_ptr<ProgramCheck> check_;
   std::unique_ptr<Rebuild> rebuild_;
+  bool has_rebuilt_ = false;  ///< to the place: modes are noted from there on
   bool is_over_ = false, has_question_ = false, is_probing_ = false;
   std::optional<AwaitedInput> input_wait_;  ///< while the program waits for one
 };

@@ -1,6 +1,7 @@
 #include "gateway/app/run/run_session.hpp"
 
 #include <algorithm>
+#include <utility>
 
 /// The checkpoints of a run, and its restart.
 namespace dripline::gateway {
@@ -28,18 +29,20 @@ void RunSession::take_checkpoint() {
 Result<void> RunSession::begin_rebuild() {
   if (parts_.checkpoints == nullptr)
     return fail(Errc::Unsupported, "a restart: this gateway keeps no checkpoints");
-  rebuild_ = std::make_unique<Rebuild>(
-      Rebuild::Parts{.plan = *std::exchange(parts_.restart, std::nullopt),
-                     .interpreter = *interpreter_,
-                     .tracker = tracker_,
-                     .feed = feed(),
-                     .database = parts_.checkpoints->database(),
-                     .machine = parts_.machine,
-                     .is_lathe = parts_.is_lathe,
-                     .begin_lengths = [this](const auto& at, const auto& lengths) {
-                       parts_.machine.begin_lengths(lengths);
-                       events_.begin(at, lengths);
-                     }});
+  rebuild_ =
+      std::make_unique<Rebuild>(Rebuild::Parts{.plan = *std::exchange(parts_.restart, std::nullopt),
+                                               .interpreter = *interpreter_,
+                                               .tracker = tracker_,
+                                               .feed = feed(),
+                                               .database = parts_.checkpoints->database(),
+                                               .machine = parts_.machine,
+                                               .is_lathe = parts_.is_lathe,
+                                               .begin_lengths =
+                                                   [this](const auto& at, const auto& lengths) {
+                                                     parts_.machine.begin_lengths(lengths);
+                                                     events_.begin(at, lengths);
+                                                   },
+                                               .on_block = [this] { note_rebuilt(); }});
   if (rebuild_->state() == Rebuild::State::Failed)
     return fail(Errc::Corrupt, "{}", rebuild_->fault());
   return {};
@@ -49,6 +52,18 @@ Rebuild::State RunSession::rebuild() {
   const Rebuild::State state = rebuild_->work();
   if (state == Rebuild::State::Ready) end_rebuild();
   return state;
+}
+
+/// From the place on the modes belong to their blocks: the length of the block that continues needs
+/// those after it, and these may end its compensation.
+void RunSession::note_rebuilt() {
+  if (!std::exchange(has_rebuilt_, true)) {
+    modes_.clear();
+    frames_.clear();
+    (void)tracker_.take_moves();
+    tool_history_.begin(parts_.tool, interpreter_->modes());
+  }
+  note_modes();
 }
 
 /// What the interpreter has come to is the run's from here on.
@@ -68,11 +83,7 @@ void RunSession::end_rebuild() {
     if (gap > 0) clock_ahead_ += static_cast<double>(gap) / 1000;
   }
   next_answer_ = std::min<std::size_t>(setup_.answers.size(), rebuild_->answers().prompts);
-  modes_.clear();
-  frames_.clear();
-  (void)tracker_.take_moves();
-  tool_history_.begin(parts_.tool, interpreter_->modes());
-  note_modes();
+  note_rebuilt();
   // What the skipped blocks have changed was executed, though a kill may have kept it from the
   // disk.
   note_memory();

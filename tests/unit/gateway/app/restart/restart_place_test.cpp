@@ -336,6 +336,37 @@ TEST_F(Restart, NothingStartsFromADamagedCheckpoint) {
   EXPECT_TRUE(shop.path.empty()) << "nothing was given to the machine";
 }
 
+/// The end of its block is known only from the next ones, which end the compensation.
+TEST(CompensatedRestart, ShowsTheModesOfTheBlockThatIsExecuted) {
+  const auto setup = interpreter::parse_setup("[[tool]]\nnumber = 1\nradius = 4.0\n");
+  ASSERT_TRUE(setup) << setup.error().what;
+  RestartFixture shop(interpreter::kFanucDialect, *setup, "20x");
+  shop.set_checkpoint_interval(std::chrono::milliseconds(200));
+  shop.push("P",
+            "O0541\nG90 G00 X-15. Y-15.\nN20 G41 G01 X0 Y0 D1 F300\nN30 Y60.\n"
+            "N40 G40 X-20. F600\nN50 Y0\nM30\n");
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  const std::string run = shop.last_run();
+  ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->position[1] > 20; }));
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop.run_on());
+  const auto report = shop.begin_restart("P", run);
+  ASSERT_TRUE(report.is_object()) << shop.start_answer.reason << shop.last_end().reason;
+  EXPECT_EQ(report["next"]["n"], 30);
+  EXPECT_EQ(report["modes"]["compensation"], "left");
+  ASSERT_TRUE(shop.cycle_start());
+  const auto executes = [&](int n, bool is_compensated) {
+    return shop.run_until([&] {
+      const auto shown = is_compensated ? dds::CompensationSide::Left : dds::CompensationSide::Off;
+      return shop.status && shop.status->modes && shop.status->sequence == n &&
+             shop.status->modes->compensation == shown;
+    });
+  };
+  EXPECT_TRUE(executes(30, true));
+  EXPECT_TRUE(executes(50, false));
+}
+
 /// With a head the approach along Z would lead a tilted tool through the part, in or out.
 TEST(RestartOfAHead, IsRefusedWhereTheToolIsTilted) {
   const auto setup = interpreter::parse_setup(
