@@ -34,8 +34,21 @@ Rs274NgcInterpreter::Rs274NgcInterpreter(ControlOptions options, std::vector<Too
   run_.state.position = to_program(run_, values_of(run_.state.machine));
 }
 
+/// The search for the place that a block leads to belongs to the block: the state after it is the
+/// same whether the place was known or not.
 BlockOutcome Rs274NgcInterpreter::run_block() {
-  const BlockOutcome outcome = run_line();
+  BlockOutcome outcome = run_line();
+  if (outcome == BlockOutcome::Finished && run_.state.skip.until != SkipFor::Nothing) [[unlikely]] {
+    const Origin origin = run_.origin;
+    do {
+      outcome = run_line();
+      if (outcome == BlockOutcome::NoBlock && ++passed_over_ == kMaxPassedOver)
+        return BlockOutcome::MoreFollows;
+    } while (outcome == BlockOutcome::NoBlock && run_.state.skip.until != SkipFor::Nothing);
+    if (outcome != BlockOutcome::NoBlock) return outcome;
+    run_.origin = origin;
+    return BlockOutcome::Finished;
+  }
   if (outcome == BlockOutcome::NoBlock && ++passed_over_ == kMaxPassedOver) [[unlikely]]
     return BlockOutcome::MoreFollows;
   return outcome;

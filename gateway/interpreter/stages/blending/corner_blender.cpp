@@ -137,12 +137,11 @@ void CornerBlender::on_linear(const Move& move, Feed feed, bool rests) {
     return give(*sink_, move);
   }
   Element& element = state_.spare();
-  element.is_arc = false;
+  element.make_line();
   element.is_rapid = kIsRapid;
   element.line = {move.origin, move.to, feed, rests};
   element.from = from;
   element.end = end;
-  element.sweep = 0;
   take(element);
 }
 
@@ -277,11 +276,11 @@ void CornerBlender::lead_back(const Thread& thread) {
   }
   const PlaneAxes axes = axes_of(state_.plane);
   Element& element = state_.spare();
-  element.is_arc = element.is_rapid = false;
+  element.make_line();
+  element.is_rapid = false;
   element.line = {thread.origin, thread.to, {}, false};
   element.from = in_plane(state_.programmed, axes);
   element.end = in_plane(thread.to, axes);
-  element.sweep = 0;
   element.announced = state_.next;
   decide_corner(element);
 }

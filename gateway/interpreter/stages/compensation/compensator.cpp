@@ -34,6 +34,9 @@ void Compensator::reset(const Position& start) {
   state_.phase = Phase::Off;
   state_.has_element = false;
   state_.is_output_suppressed = false;
+  state_.offset = 0;
+  state_.tip = {};
+  state_.start_up = StartUp::NextNormal;
   state_.next_corner.reset();
   state_.next_arc.reset();
   state_.begins_contour = false;

@@ -61,6 +61,14 @@ struct Element {
   /// Directions of length 1 at start and end.
   PlaneVector direction_in() const;
   PlaneVector direction_out() const;
+  /// It is a line. What an arc has left in it is dropped: equal states have equal bytes.
+  void make_line() {
+    is_arc = false;
+    center = {};
+    side = 1;
+    sweep = 0;
+    given_sweep = {};
+  }
   /// Moves an end. The sweep follows.
   void begin_at(PlaneVector point);
   void end_at(PlaneVector point);

@@ -38,7 +38,9 @@ double difference(const Shift& a, const Shift& b) {
 
 }  // namespace
 
+/// What an arc has left in it is dropped: equal states have equal bytes.
 void complete_line(Element& element) {
+  element.arch = {};
   const PlaneVector along = element.end - element.from;
   const PlaneVector direction = (1 / length(along)) * along;
   element.direction_in = direction;
