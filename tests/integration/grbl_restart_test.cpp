@@ -168,5 +168,50 @@ TEST_F(GrblRestart, OfARestartContinuesWhereThatWasCutOff) {
   restart(cut);
 }
 
+/// With nothing in hand the axes rest where the program has left them: as long as they are there,
+/// the board was not switched off.
+TEST_F(GrblRestart, AfterAKillAtAStopNeedsNoHomingWhileTheAxesAreThere) {
+  system->push("stop", "G21 G90 G94 F6000\nG1 X5\nM0\nM3 S500\nG1 X10\nM2\n");
+  const auto kill_at_stop = [&] {
+    home_axes();
+    const std::string id = start_run("stop");
+    EXPECT_TRUE(eventually([&] {
+      const auto shown = system->rest().get("/api/v1/machines/lathe-1").json();
+      return shown["status"].value("execution", "") == "PROGRAM_STOPPED";
+    }));
+    EXPECT_TRUE(eventually([&] { return rests(); }));
+    system->gateway().kill();
+    return id;
+  };
+  const auto restarted = [&](const std::string& id) {
+    std::string refusal, second;
+    EXPECT_TRUE(eventually([&] {
+      const auto reply =
+          system->rest().post("/api/v1/runs/" + id + "/restart", nlohmann::json::object());
+      refusal = reply.body;
+      if (reply.status == 201) second = reply.json().value("id", "");
+      return reply.status == 201 || refusal.find("home the machine") != std::string::npos;
+    })) << refusal;
+    return std::pair(second, refusal);
+  };
+  const std::string id = kill_at_stop();
+  start_gateway();
+  EXPECT_EQ(system->wait_ended(id).value("state", ""), "interrupted");
+  const auto [second, refusal] = restarted(id);
+  ASSERT_FALSE(second.empty()) << refusal;
+  EXPECT_EQ(report_of(second)["continues_at"].value("X", 0.0), 5);
+  command(second, "resume");
+  const auto whole = system->wait_ended(second);
+  EXPECT_EQ(whole.value("state", ""), "completed") << whole.dump();
+  EXPECT_EQ(board->with([](GrblBoard& peer) { return peer.position()[0]; }), 10);
+
+  const std::string again = kill_at_stop();
+  board->with([](GrblBoard& peer) { peer.restart(); });
+  start_gateway();
+  EXPECT_EQ(system->wait_ended(again).value("state", ""), "interrupted");
+  const auto [none, why] = restarted(again);
+  EXPECT_TRUE(none.empty()) << "it was switched off";
+}
+
 }  // namespace
 }  // namespace dripline::integration

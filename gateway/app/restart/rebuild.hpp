@@ -89,6 +89,7 @@ class Rebuild {
   std::string tilt_fault(const Approach& approach) const;
   std::string thread_fault() const;
   std::string chain_fault() const;
+  std::string place_fault() const;
   bool has_approach() const;
   machine::ToolLengths take_lengths();
   void expect_unmoved(const machine::ToolLengths& lengths);

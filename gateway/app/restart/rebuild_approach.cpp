@@ -1,4 +1,5 @@
 // From where the axes are to the place: what is known of it when the gate opens.
+#include <algorithm>
 #include <cmath>
 
 #include "gateway/app/restart/rebuild.hpp"
@@ -7,6 +8,7 @@ namespace dripline::gateway {
 namespace {
 
 constexpr double kSamePosition = 1e-9;  ///< millimeters or degrees
+constexpr double kSameAxes = 0.002;     ///< the same axes report the same
 constexpr double kMoved = 0.05;         ///< more than axes move while they come to rest
 
 }  // namespace
@@ -62,7 +64,8 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   approach.feed = report_.delivered.feed;
   approach.spindle_turns = report_.delivered.spindle.state != interpreter::SpindleState::Off;
   report_.approach = approach.plan();
-  approach_fault_ = tilt_fault(approach);
+  approach_fault_ = place_fault();
+  if (approach_fault_.empty()) approach_fault_ = tilt_fault(approach);
   if (approach_fault_.empty()) approach_fault_ = thread_fault();
   if (approach_fault_.empty()) approach_fault_ = chain_fault();
   if (approach_fault_.empty()) approach_fault_ = report_.approach.fault;
@@ -77,6 +80,16 @@ void Rebuild::on_open(interpreter::EventSink& out) {
 bool Rebuild::has_approach() const {
   return !report_.approach.before.empty() || !report_.approach.after.empty() ||
          !report_.approach.fault.empty();
+}
+
+/// A device that may have been switched off shows another place then.
+std::string Rebuild::place_fault() const {
+  if (parts_.plan.doubt.empty()) return {};
+  const interpreter::Position& at = report_.delivered.position;
+  const bool is_elsewhere = std::ranges::any_of(interpreter::kAllAxes, [&](auto axis) {
+    return at.has(axis) && std::fabs(at.raw(axis) - report_.machine.raw(axis)) > kSameAxes;
+  });
+  return is_elsewhere ? parts_.plan.doubt : std::string();
 }
 
 /// A tap, or a tool in a thread, leaves it only along the thread and with the spindle.

@@ -83,13 +83,16 @@ Result<void> resolve_place(RestartPlan& plan,
       at ? axes_text(*at, plan.ending.in_hand) : " at a place not known", executed + 1, last + 1);
 }
 
+/// What a board shows after it was switched on.
+constexpr std::string_view kAtZero = " 0";
+
 /// Of the axes that are not at 0.
 std::string position_text(const interpreter::Position& at) {
   std::string text;
   for (const interpreter::Axis axis : interpreter::kAllAxes)
     if (at.raw(axis) != 0)
       text += fmt::format(" {}{:.3f}", interpreter::letter(axis), at.raw(axis));
-  return text.empty() ? " 0" : text;
+  return text.empty() ? std::string(kAtZero) : text;
 }
 
 std::string_view words_of(machine::PositionTrust trust) {
@@ -105,7 +108,7 @@ std::string_view words_of(machine::PositionTrust trust) {
 
 /// After the end of what was executed the path continues from machine coordinates: they are those
 /// of the run, or it is refused.
-Result<void> check_trust(const RestartPlan& plan, const PresentState& present) {
+Result<void> check_trust(RestartPlan& plan, const PresentState& present) {
   using machine::PositionTrust;
   constexpr double kSamePlace = 0.002;  // mm or degrees; the same axes report the same
   const std::uint64_t executed = plan.ending.executed.executed;
@@ -119,14 +122,22 @@ Result<void> check_trust(const RestartPlan& plan, const PresentState& present) {
   // The count of a board that was only stopped while it moved is the same, and says nothing.
   const bool may_be_kept = present.trust == PositionTrust::Reconnected && stopped;
   if (may_be_kept && std::ranges::none_of(interpreter::kAllAxes, differs)) return {};
-  return fail(Errc::Conflict,
-              "run {}: {}{}: home the machine, or look at the part and name the block that "
-              "continues, block={}",
-              plan.original.run, words_of(present.trust),
-              may_be_kept ? fmt::format(", and its axes are at{}, where that run stopped at{}",
-                                        position_text(now), position_text(*stopped))
-                          : "",
-              executed + 1);
+  // After a kill with nothing in hand the machine had done all that it got, and rested there.
+  const bool rests_at_end = present.trust == PositionTrust::Reconnected && !stopped;
+  std::string axes;
+  if (may_be_kept) {
+    axes = fmt::format(", and its axes are at{}, where that run stopped at{}", position_text(now),
+                       position_text(*stopped));
+  } else if (rests_at_end) {
+    axes = fmt::format(", and its axes at{} do not show that it was not", position_text(now));
+  }
+  std::string text = fmt::format(
+      "run {}: {}{}: home the machine, or look at the part and name the block that continues, "
+      "block={}",
+      plan.original.run, words_of(present.trust), axes, executed + 1);
+  if (!rests_at_end || position_text(now) == kAtZero) return fail(Errc::Conflict, "{}", text);
+  plan.doubt = std::move(text);
+  return {};
 }
 
 Result<void> check_place(const RestartPlan& plan) {

@@ -26,6 +26,9 @@ struct RestartPlan {
   Conditions conditions;
   RunEnding ending;             ///< resolved by where the axes rest, for a restart after it
   std::uint64_t on_record = 0;  ///< the block executed last, as the run has it
+  /// Why the position may be another, where only the place shows that it is not: the axes are where
+  /// the program has left them. Empty: it is not in doubt.
+  std::string doubt;
   std::vector<report::StoredCheckpoint> checkpoints;  ///< ascending, without their bytes
 
   /// The last block that is not executed again, where that is known before looking.
