@@ -16,6 +16,8 @@ constexpr std::size_t kRouteSteps = 64;
 
 /// From some blocks before the place on, up to the block that the run was in.
 Rebuild::State Rebuild::begin_route() {
+  // Nothing was executed: no thread is continued, and what is checked at a start is still to come.
+  if (target_ == 0 && !parts_.is_lathe) return begin_proof();
   const auto& checkpoints = parts_.plan.checkpoints;
   const std::uint64_t back = parts_.is_lathe ? kRouteBlocks : kThreadBlocks;
   const std::size_t place = parts_.plan.nearest(target_ > back ? target_ - back : 0);
