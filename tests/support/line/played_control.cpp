@@ -6,7 +6,7 @@
 namespace dripline::test_support {
 namespace {
 
-constexpr std::chrono::seconds kPatience{15};
+constexpr std::chrono::seconds kPatience{60};
 
 }  // namespace
 

@@ -14,7 +14,7 @@
 namespace dripline::test_support {
 namespace {
 
-constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::seconds kPatience{60};
 
 /// The test's settings for the characters; shared with the open channel.
 struct Faults {

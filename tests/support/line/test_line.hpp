@@ -19,7 +19,7 @@ class TestLine {
 
   /// For serial::LineDriver::Parts::open.
   Result<std::unique_ptr<serial::Channel>> open();
-  /// Everything that has come in, once it contains `text` or after some seconds.
+  /// Everything that has come in, once it contains `text` or after a minute.
   std::string read_until(std::string_view text);
   /// What comes within that time, however little it is.
   std::string read_for(std::chrono::milliseconds time);

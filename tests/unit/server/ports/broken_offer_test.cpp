@@ -32,7 +32,7 @@ class BrokenOffer : public PortServiceTest {
   }
   void expect_told() {
     line().write("\x11");
-    EXPECT_EQ(line().read_for(std::chrono::milliseconds(200)), "\x04");
+    EXPECT_EQ(line().read_until("\x04"), "\x04");
   }
   void expect_offered_again() {
     line().write("\x11");

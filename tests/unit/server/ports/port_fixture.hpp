@@ -19,7 +19,7 @@ namespace dripline::server_test {
 /// of cables.
 class PortServiceTest : public ServerTest {
  protected:
-  static constexpr std::chrono::seconds kPatience{10};
+  static constexpr std::chrono::seconds kPatience{60};
 
   PortServiceTest() { catalog_.known.insert(catalog_.known.end(), {"fanuc", "prototrak-plus"}); }
 
@@ -80,7 +80,7 @@ class PortServiceTest : public ServerTest {
   Result<void> command(const std::string& run, dds::CommandAction action) {
     return ports_->machines().command({.run = run, .action = action, .argument = {}, .value = 0});
   }
-  /// Looks again and again, at most for some seconds.
+  /// Looks again and again, at most for a minute.
   static bool wait(const std::function<bool()>& is_so) {
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (!is_so()) {

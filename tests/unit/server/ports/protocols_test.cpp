@@ -140,7 +140,7 @@ TEST_F(LineProtocolTest, OffersNothingAfterARunThatWasBrokenOff) {
     const auto request = ports_->port("com1")->request;
     return request && request->answer.find("was broken off") != std::string::npos;
   }));
-  EXPECT_EQ(line().read_for(std::chrono::milliseconds(100)), "\x04");
+  EXPECT_EQ(line().read_until("\x04"), "\x04");
   const auto sent = ports_->send("com1", {{"21.h", std::nullopt}});
   ASSERT_TRUE(sent) << sent.error().what;
   line().write("\x11");

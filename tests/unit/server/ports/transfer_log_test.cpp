@@ -186,7 +186,7 @@ TEST_F(TransferLogTest, OfAServerThatWasKilledLetsNoRequestBeAnswered) {
   start_again();
   for (int time = 0; time < 2; ++time) {
     line().write("\x11");
-    EXPECT_EQ(line().read_for(std::chrono::milliseconds(200)), "\x04");
+    EXPECT_EQ(line().read_until("\x04"), "\x04");
   }
   EXPECT_NE(ports_->port("com1")->request->answer.find("O1 revision 1 was broken off"),
             std::string::npos);
