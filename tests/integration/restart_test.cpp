@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <cstdlib>
 #include <random>
+#include <regex>
 #include <thread>
 
 #include "tests/integration/system.hpp"
@@ -40,6 +41,22 @@ class Restarted : public testing::Test {
     system.wait_connected();
   }
 
+  /// A simulated machine that is started again is at its start. What the operator does whose tool
+  /// is somewhere else: the refusal names the place.
+  void bring_tool(const std::string& refusal) {
+    const std::regex place("from there to (X[-0-9.]+ Z[-0-9.]+), where the program continues");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(refusal, found, place)) << refusal;
+    const auto moved = dnc({"machine", "mdi", "lathe-1", "G21 G0 " + found.str(1), "--wait"});
+    ASSERT_EQ(moved.status, 0) << moved.output;
+  }
+  test_support::Finished restart(const std::string& id) {
+    const auto shown = dnc({"run", "restart", id, "--json"});
+    if (shown.status == 0) return shown;
+    bring_tool(shown.output);
+    return dnc({"run", "restart", id, "--json"});
+  }
+
   System system;
   std::mt19937 random{20261123};
 };
@@ -54,7 +71,7 @@ TEST_F(Restarted, ReportsEveryLineOnceOverBothRuns) {
     const auto cut = system.wait_ended(id);
     if (cut.value("state", "") != "interrupted") continue;
     const auto before = system.report_lines(id);
-    const auto shown = dnc({"run", "restart", id, "--json"});
+    const auto shown = restart(id);
     ASSERT_EQ(shown.status, 0) << shown.output;
     const auto report = nlohmann::json::parse(shown.output);
     EXPECT_EQ(report["restart"]["after"]["block"], cut["executed"]);
