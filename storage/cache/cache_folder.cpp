@@ -77,10 +77,22 @@ void CacheFolder::find(FileKey::Kind kind, std::vector<Found>& found) const {
   }
 }
 
-Result<std::vector<CacheFolder::Found>> CacheFolder::begin() const {
-  for (const char* name : {"", "chunks", "lists", kUnfinished}) {
-    const fs::path path = folder_ / name;
+/// Those above it are there already, or are made as well.
+Result<void> CacheFolder::make(const fs::path& part) const {
+  const auto make_one = [](const fs::path& path) -> Result<void> {
     if (::mkdir(path.c_str(), S_IRWXU) != 0 && errno != EEXIST) return errno_failure(path);
+    return {};
+  };
+  fs::path path = folder_;
+  auto made = make_one(path);
+  for (auto name = part.begin(); made && name != part.end(); ++name) made = make_one(path /= *name);
+  return made;
+}
+
+Result<std::vector<CacheFolder::Found>> CacheFolder::begin() const {
+  for (const char* name : {"chunks", "lists", kUnfinished}) {
+    if (auto made = make(name); !made) return fail(made.error());
+    const fs::path path = folder_ / name;
     std::error_code ec;
     if (!fs::is_directory(path, ec)) return fail(Errc::Io, "{} is no folder", path.string());
   }
@@ -96,8 +108,15 @@ Result<std::vector<CacheFolder::Found>> CacheFolder::begin() const {
 
 Result<fs::path> CacheFolder::write(std::span<const std::byte> bytes, std::uint64_t number) const {
   const fs::path path = folder_ / kUnfinished / std::to_string(number);
-  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC,
-                               S_IRUSR | S_IWUSR));
+  const auto open_file = [&path] {
+    return Descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC,
+                             S_IRUSR | S_IWUSR));
+  };
+  Descriptor file = open_file();
+  if (!file && errno == ENOENT) {  // the folder was removed
+    if (auto made = make(kUnfinished); !made) return fail(made.error());
+    file = open_file();
+  }
   if (!file) return errno_failure(path);
   if (write_all(file.get(), bytes)) return path;
   auto failure = errno_failure(path);
@@ -108,10 +127,10 @@ Result<fs::path> CacheFolder::write(std::span<const std::byte> bytes, std::uint6
 Result<void> CacheFolder::publish(const fs::path& unfinished, const FileKey& key) const {
   const fs::path path = path_of(key);
   if (::rename(unfinished.c_str(), path.c_str()) == 0) return {};
-  if (errno == ENOENT && ::mkdir(path.parent_path().c_str(), S_IRWXU) == 0 &&
-      ::rename(unfinished.c_str(), path.c_str()) == 0) {
-    return {};
-  }
+  if (errno != ENOENT) return errno_failure(path);
+  // The first of its sub-folder; or the folder was removed.
+  if (auto made = make(path.parent_path().lexically_relative(folder_)); !made) return made;
+  if (::rename(unfinished.c_str(), path.c_str()) == 0) return {};
   return errno_failure(path);
 }
 

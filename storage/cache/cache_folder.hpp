@@ -34,7 +34,7 @@ class CacheFolder {
   Result<std::vector<Found>> begin() const;
 
   /// All bytes under a name of their own; `publish` gives them their place, `discard` drops them.
-  /// Errors: Io.
+  /// Both make a folder that was removed meanwhile. Errors: Io.
   Result<std::filesystem::path> write(std::span<const std::byte> bytes, std::uint64_t number) const;
   Result<void> publish(const std::filesystem::path& unfinished, const FileKey& key) const;
   static void discard(const std::filesystem::path& unfinished);
@@ -50,6 +50,7 @@ class CacheFolder {
   const std::filesystem::path& path() const { return folder_; }
 
  private:
+  Result<void> make(const std::filesystem::path& part) const;
   std::filesystem::path path_of(const FileKey& key) const;
   void find(FileKey::Kind kind, std::vector<Found>& found) const;
 

@@ -364,6 +364,25 @@ TEST_F(DiskCacheTest, KeepsAgainWhenItCan) {
   EXPECT_EQ(cache_->state().fault, "");
 }
 
+TEST_F(DiskCacheTest, KeepsAgainAfterItsFolderWasRemoved) {
+  for (const char* removed : {"", "unfinished", "chunks", "lists"}) {
+    SCOPED_TRACE(removed);
+    const auto before = chunk_of(1), after = chunk_of(2);
+    keep(before);
+    fs::remove_all(options_.folder / removed);
+    keep(after);
+    cache_->keep_list(content_, {after.size, {after.digest}});
+    EXPECT_TRUE(has(after));
+    EXPECT_NE(cache_->find_list(content_), nullptr);
+    has(before);  // if it is not there any more, it is one that never was
+    keep(before);
+    EXPECT_TRUE(has(before));
+    EXPECT_TRUE(faults_.empty()) << faults_.front();
+    fs::remove_all(options_.folder);
+    open();
+  }
+}
+
 TEST_F(DiskCacheTest, DoesNotTryAgainAtOnce) {
   options_.pause = std::chrono::hours(1);
   cache_.reset();
@@ -372,7 +391,9 @@ TEST_F(DiskCacheTest, DoesNotTryAgainAtOnce) {
   cache_ = *std::move(opened);
   const fs::path unfinished = options_.folder / "unfinished";
   fs::remove(unfinished);
+  write(unfinished, "an obstacle");
   keep(chunk_of(1));
+  fs::remove(unfinished);
   fs::create_directory(unfinished);
   keep(chunk_of(1));
   EXPECT_FALSE(has(chunk_of(1)));
