@@ -7,6 +7,7 @@
 #include "protocol/base/digest.hpp"
 #include "storage/impl/waiting_rows.hpp"
 #include "storage/postgresql/database.hpp"
+#include "storage/postgresql/lock_holders.hpp"
 #include "storage/postgresql/migration.hpp"
 #include "storage/postgresql/url.hpp"
 #include "storage/sql/query.hpp"
@@ -24,6 +25,9 @@ struct PostgresqlStandby::Connection {
   postgresql::Database database;
   SteadyClock::time_point since;
   std::optional<SteadyClock::time_point> noted{};
+  std::optional<SteadyClock::time_point> locked_since{};  ///< the place, which is lapsed
+  std::optional<SteadyClock::time_point> named{};         ///< who has locked it
+  std::string obstacle{};
   bool has_place = false;     ///< its schema has terms, and servers that wait
   bool has_settings = false;  ///< its schema has settings of the holder
 };
@@ -103,6 +107,7 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
                 "have it until there is one again (deploy/docs/operations.md)",
                 database.label());
   }
+  if (auto looked = look_at_lock(view); !looked) return fail(looked.error());
   auto identity = database.text("SELECT id FROM identity");
   if (!identity) return fail(identity.error());
   view.identity = *std::move(identity);
@@ -112,6 +117,37 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
   view.has_others = !others->empty();
   if (auto noted = note(); !noted) return fail(noted.error());
   return view;
+}
+
+/// A taking would wait for the row too, and be late where the other server has renewed its lease.
+Result<void> PostgresqlStandby::look_at_lock(View& view) {
+  auto& database = connection_->database;
+  auto& locked_since = connection_->locked_since;
+  auto& named = connection_->named;
+  const auto is_unlocked = [&]() -> Result<bool> {
+    if (!view.is_free || !view.is_lapsed) return true;
+    const auto row =
+        sql::first_row(database, "SELECT id FROM store_holder WHERE id = 1 FOR UPDATE SKIP LOCKED",
+                       [](const sql::Statement&) { return true; });
+    if (!row) return fail(row.error());
+    return row->has_value();
+  }();
+  if (!is_unlocked) return fail(is_unlocked.error());
+  if (*is_unlocked) {
+    locked_since.reset();
+    named.reset();
+    return {};
+  }
+  view.is_free = false;
+  const auto now = SteadyClock::now();
+  if (!locked_since) locked_since = now;
+  const auto locked = std::chrono::floor<std::chrono::seconds>(now - *locked_since);
+  if (locked >= options_.lease && (!named || now - *named >= kNoteEvery)) {
+    connection_->obstacle = postgresql::locked_by_others(database, locked).what;
+    named = now;
+  }
+  if (named) view.obstacle = connection_->obstacle;
+  return postgresql::end_frozen_writers(database, options_.lease);
 }
 
 /// That this server waits, each second; or that it does not, once.

@@ -16,9 +16,10 @@ namespace dripline::storage {
 class PostgresqlStandby {
  public:
   struct Options {
-    std::string url;        ///< postgresql://...
-    std::string holder;     ///< as of PostgresqlStoreOptions
-    std::string described;  ///< likewise
+    std::string url;                        ///< postgresql://...
+    std::string holder;                     ///< as of PostgresqlStoreOptions
+    std::string described;                  ///< likewise
+    std::chrono::milliseconds lease{3000};  ///< likewise
   };
   explicit PostgresqlStandby(Options options);
   PostgresqlStandby(const PostgresqlStandby&) = delete;
@@ -37,12 +38,15 @@ class PostgresqlStandby {
     std::string settings;     ///< likewise (ServerFacts); empty: an older version
     std::uint64_t term = 0;   ///< of the last holder
     bool has_others = false;  ///< other servers wait too
+    std::string obstacle;     ///< of a lapsed place: who has locked it, for a lease or more
     std::string identity;     ///< of the database; empty: it has none
     UtcTime time{};           ///< by the database's clock; only where it has tables
   };
   /// Connects when it is not connected. A lease that is over counts only after `kSettle` of a
-  /// connection: after an outage of the database its holder comes first. Errors: Io, Denied,
-  /// Unsupported (a newer version's tables).
+  /// connection: after an outage of the database its holder comes first. Nor is the place free
+  /// while a transaction that writes has its row locked: its server may be alive, on a line that is
+  /// slow. One that was frozen in it is disconnected (postgresql/lock_holders.hpp). Errors: Io,
+  /// Denied, Unsupported (a newer version's tables).
   Result<View> look();
   /// Whether it could take over: one that cannot is not among the servers that wait, so that
   /// nothing is handed over to it. From the next look on.
@@ -63,6 +67,7 @@ class PostgresqlStandby {
   Result<void> connect();
   Result<View> read();
   Result<void> note();
+  Result<void> look_at_lock(View& view);
 
   const Options options_;
   bool is_able_ = true;

@@ -16,8 +16,8 @@ using SteadyClock = std::chrono::steady_clock;
 
 /// A database that is not there keeps no caller longer; one that was just lost may be back at once.
 constexpr std::chrono::milliseconds kReconnect{2000}, kPause{100};
-/// Of the lease: so often the place is renewed.
-constexpr int kRenewals = 4;
+/// Of the lease: so often the place is renewed, and after so long without it with what is written.
+constexpr int kRenewals = 4, kLateRenewals = 2;
 
 }  // namespace
 
@@ -169,13 +169,13 @@ Result<void> PostgresqlConnections::write_with(const Work& work, Durability dura
     const auto deadline = SteadyClock::now() + options_.wait;
     for (;;) {
       if (auto there = connect(slot); !there) return there;
-      const auto renewed_before = renewed_;
       auto done = begin_write(*slot, durability);
       if (done) done = work(*slot);
-      if (done) done = renew_when_due(*slot);
+      std::optional<SteadyClock::time_point> renewed;
+      if (done) done = renew_when_late(*slot, renewed);
       const bool is_at_commit = done.has_value();
       if (done) done = slot->commit();
-      if (done && renewed_ != renewed_before) place_until_ = renewed_ + options_.lease;
+      if (done && renewed) note_renewed(*renewed);
       if (done) return done;
       const bool is_over = SteadyClock::now() >= deadline;
       if (!slot->is_alive()) {
@@ -208,35 +208,59 @@ Result<void> PostgresqlConnections::read_with(const Work& work) {
   });
 }
 
-/// With whatever is written, so that neither a long transaction nor a queue of writers costs the
-/// place: a server that waits for the row finds it renewed.
-Result<void> PostgresqlConnections::renew_when_due(Database& database) {
+void PostgresqlConnections::note_renewed(SteadyClock::time_point when) {
+  renewed_ = when;
+  place_until_ = when + options_.lease;
+}
+
+/// With whatever is written, where the keeper's connection is lost or slow.
+Result<void> PostgresqlConnections::renew_when_late(
+    Database& database, std::optional<SteadyClock::time_point>& renewed) {
   const auto now = SteadyClock::now();
-  if (now - renewed_ < options_.lease / kRenewals) return {};
-  auto done = place_.renew(database);
-  if (done) renewed_ = now;
-  return done;
+  if (now - renewed_.load() < options_.lease / kLateRenewals) return {};
+  const auto ours = place_.renew(database);
+  if (!ours) return fail(ours.error());
+  renewed = now;
+  return {};
 }
 
 Result<void> PostgresqlConnections::renew() {
-  return write([this](sql::Database& database) {
-    renewed_ = SteadyClock::now();  // by this
-    return place_.renew(database);
+  SteadyClock::time_point begun;
+  auto done = write([&](sql::Database& database) -> Result<void> {
+    begun = SteadyClock::now();
+    const auto ours = place_.renew(database);
+    return ours ? Result<void>() : fail(ours.error());
   });
+  if (done) note_renewed(begun);
+  return done;
 }
 
 Result<void> PostgresqlConnections::publish(const ServerFacts& facts) {
   return write([&](sql::Database& database) { return place_.publish(database, facts); });
 }
 
+/// Waits for no writer, and shares no connection with what is stored: neither a transaction that
+/// takes long, nor a queue of writers, nor text on a slow line costs the place.
+void PostgresqlConnections::keep(Slot& slot) {
+  if (!check_place() || !connect(slot)) return;
+  const auto begun = SteadyClock::now();
+  const auto ours = place_.renew(*slot);
+  if (!ours) return;  // shows in whatever is stored next
+  if (*ours) {
+    note_renewed(begun);
+  } else {
+    lose_place();
+  }
+}
+
 void PostgresqlConnections::keep_place(const std::stop_token& stop) {
+  Slot own;
   std::mutex mutex;
   std::condition_variable_any stopped;
   std::unique_lock lock(mutex);
   while (!stop.stop_requested()) {
     stopped.wait_for(lock, stop, options_.lease / kRenewals, [] { return false; });
-    // A failure shows in whatever is stored next.
-    if (!stop.stop_requested()) static_cast<void>(renew());
+    if (!stop.stop_requested()) keep(own);
   }
 }
 

@@ -25,10 +25,10 @@ struct DatabaseUse {
   bool makes_tables = true;  ///< false: a database without ours stays as it is
 };
 
-/// One connection that writes and some that read; a lost one is opened again by anyone who needs
-/// it. The database has one holder, by a lease with a term (postgresql_place.hpp): a server that
-/// lost its place stores nothing any more, and once it knows that it reads nothing either: what it
-/// would do is another one's now. Thread-safe.
+/// One connection that writes, some that read and one that keeps the place; a lost one is opened
+/// again by anyone who needs it. The database has one holder, by a lease with a term
+/// (postgresql_place.hpp): a server that lost its place stores nothing any more, and once it knows
+/// that it reads nothing either: what it would do is another one's now. Thread-safe.
 class PostgresqlConnections final : public Connections {
  public:
   /// Takes the holder's place, and creates or migrates the schema. Errors: see
@@ -59,7 +59,10 @@ class PostgresqlConnections final : public Connections {
   Result<void> prepare(Database& database, const DatabaseUse& use);
   Result<void> check_use(Database& database, const DatabaseUse& use) const;
   void lose_place();
-  Result<void> renew_when_due(Database& database);
+  void note_renewed(std::chrono::steady_clock::time_point when);
+  Result<void> renew_when_late(Database& database,
+                               std::optional<std::chrono::steady_clock::time_point>& renewed);
+  void keep(Slot& slot);
   Result<void> begin_write(Database& database, Durability durability);
   /// Opens it when it is not. Errors: Io, after trying for a moment.
   Result<void> connect(Slot& slot);
@@ -70,7 +73,7 @@ class PostgresqlConnections final : public Connections {
   std::string label_;
   PostgresqlPlace place_;
   std::atomic<bool> is_lost_ = false;                                 ///< the place; for good
-  std::chrono::steady_clock::time_point renewed_{};                   ///< of whoever has the writer
+  std::atomic<std::chrono::steady_clock::time_point> renewed_{};      ///< was begun to be, and was
   std::atomic<std::chrono::steady_clock::time_point> place_until_{};  ///< at least
   ConnectionPool<Slot> writer_;
   ConnectionPool<Slot> readers_;

@@ -106,7 +106,7 @@ Result<void> PostgresqlPlace::take_within(postgresql::Database& database) {
     const auto taken = try_take(database, other);
     if (taken && *taken) return {};
     if (!taken) {
-      const bool was_locked = database.waited_for_lock();
+      const bool was_locked = database.waited_for_lock() || database.was_in_the_way();
       database.roll_back();
       if (!was_locked) return fail(taken.error());
       if (!locked_since) locked_since = SteadyClock::now();
@@ -153,20 +153,26 @@ Result<void> PostgresqlPlace::raise_term(postgresql::Database& database) {
 }
 
 Result<bool> PostgresqlPlace::is_ours(sql::Database& database) const {
-  const auto ours = sql::first_row(
-      database, "SELECT holder, term FROM store_holder WHERE id = 1 FOR UPDATE",
-      [this](const sql::Statement& row) {
-        return row.text(0) == owner_.holder && static_cast<std::uint64_t>(row.integer(1)) == term_;
-      });
+  const auto ours = sql::first_row(database,
+                                   "SELECT place.holder, place.term FROM store_holder AS place, "
+                                   "schema_version AS writer "
+                                   "WHERE place.id = 1 FOR KEY SHARE OF place FOR UPDATE OF writer",
+                                   [this](const sql::Statement& row) {
+                                     return row.text(0) == owner_.holder &&
+                                            static_cast<std::uint64_t>(row.integer(1)) == term_;
+                                   });
   if (!ours) return fail(ours.error());
   return ours->value_or(false);
 }
 
-Result<void> PostgresqlPlace::renew(sql::Database& database) const {
-  return sql::run(database,
-                  "UPDATE store_holder SET until = clock_timestamp() + ?1 * interval '1 "
-                  "millisecond' WHERE id = 1",
-                  owner_.lease.count());
+Result<bool> PostgresqlPlace::renew(sql::Database& database) const {
+  const auto renewed =
+      sql::run(database,
+               "UPDATE store_holder SET until = clock_timestamp() + ?1 * interval '1 millisecond' "
+               "WHERE id = 1 AND holder = ?2 AND term = ?3",
+               owner_.lease.count(), owner_.holder, term_);
+  if (!renewed) return fail(renewed.error());
+  return database.changes() == 1;
 }
 
 Result<void> PostgresqlPlace::publish(sql::Database& database, const ServerFacts& facts) const {

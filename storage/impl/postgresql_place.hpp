@@ -15,11 +15,14 @@ namespace dripline::storage {
 /// What is guaranteed, whatever is killed, frozen or cut off, and whatever any server's clock says:
 /// - A term is given once. Each taking of the place has a higher one than all before, in the
 ///   transaction that takes it, also by the same server and by one with a copied folder.
-/// - A transaction that writes locks the row, and is undone unless the row has the writer's name
-/// and
-///   the writer's term. So between a taking and the next one only transactions of that taking are
-///   committed: a server that was frozen, in the middle of a transaction or before it, and wakes up
-///   after another has the place, stores no row.
+/// - A transaction that writes locks the row against a taking (FOR KEY SHARE, which FOR UPDATE
+/// waits
+///   for), and is undone unless the row has the writer's name and the writer's term. So between a
+///   taking and the next one only transactions of that taking are committed: a server that was
+///   frozen, in the middle of a transaction or before it, and wakes up after another has the place,
+///   stores no row.
+/// - A renewal changes no key, so it waits for no transaction that writes: the lease of a server
+///   that stores much over a slow line is renewed meanwhile, on a connection of its own.
 /// - The place is another's only after it was given back, or was not renewed for the holder's lease
 ///   by the database's clock, or its holder (of the same name, which has a folder's lock) begins
 ///   again. A namesake that still renews is another server, with a copy of the folder: refused.
@@ -47,11 +50,12 @@ class PostgresqlPlace {
   bool has_term() const { return term_ != 0; }
   std::uint64_t term() const { return term_; }
 
-  /// In a transaction that will write: locks the row. False: it is not ours, or not any more.
+  /// In a transaction that will write: locks the row, and out other writers of ours: a session that
+  /// was lost may not have ended yet. False: it is not ours, or not any more.
   Result<bool> is_ours(sql::Database& database) const;
+  /// Also outside a transaction. False: it is not ours, or not any more.
+  Result<bool> renew(sql::Database& database) const;
   /// In a transaction of `is_ours`.
-  Result<void> renew(sql::Database& database) const;
-  /// Likewise.
   Result<void> publish(sql::Database& database, const ServerFacts& facts) const;
   /// Best effort: otherwise it ends by its time.
   void give_back(sql::Database& database) const;

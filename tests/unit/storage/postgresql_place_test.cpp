@@ -158,6 +158,63 @@ TEST_F(PostgresqlPlaceTest, ATransactionThatTakesLongerThanTheLeaseKeepsThePlace
   EXPECT_EQ(query("SELECT count(*) FROM record"), 3);
 }
 
+/// On a slow line a transaction takes as long as its text: a standby must see that its server
+/// lives.
+TEST_F(PostgresqlPlaceTest, TheLeaseIsRenewedWhileATransactionTakesLong) {
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
+  store_.reset();
+  auto first = PostgresqlStore::open(
+      {.url = database_->url(), .holder = "a", .lease = std::chrono::seconds(4)}, clock_);
+  ASSERT_TRUE(first) << first.error().what;
+  change(
+      "CREATE FUNCTION be_slow() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM "
+      "pg_sleep(5); RETURN NEW; END $$; CREATE TRIGGER slow BEFORE INSERT ON record FOR EACH "
+      "STATEMENT EXECUTE FUNCTION be_slow()");
+  std::atomic<bool> is_stored = false;
+  std::jthread storing([&] {
+    EXPECT_EQ((*first)->records.store(make_batch(1, 3)), 3u);
+    is_stored = true;
+  });
+  int lapsed = 0, looks = 0;
+  while (!is_stored) {
+    lapsed += query("SELECT count(*) FROM store_holder WHERE until <= clock_timestamp()") > 0;
+    ++looks;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_GT(looks, 10);
+  EXPECT_EQ(lapsed, 0);
+  EXPECT_TRUE((*first)->has_place());
+}
+
+/// The lock that each writer has: no other server is given the place in the middle of a
+/// transaction, however long its lease is over, and the next one stores nothing.
+TEST_F(PostgresqlPlaceTest, ATransactionOfATermEndsBeforeTheNextTerm) {
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
+  store_.reset();
+  auto first = open_as_if_killed("srv-2");
+  ASSERT_TRUE(first) << first.error().what;
+  ASSERT_TRUE((*first)->probe()) << "renewed now, and not at the end of what follows";
+  change(
+      "CREATE FUNCTION be_slow() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM "
+      "pg_sleep(2); RETURN NEW; END $$; CREATE TRIGGER slow BEFORE INSERT ON record FOR EACH "
+      "STATEMENT EXECUTE FUNCTION be_slow(); CREATE TABLE seen (term bigint); CREATE FUNCTION "
+      "note_term() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN INSERT INTO seen SELECT term FROM "
+      "store_holder; RETURN NULL; END $$; CREATE TRIGGER noted AFTER INSERT ON record FOR EACH "
+      "STATEMENT EXECUTE FUNCTION note_term()");
+  std::jthread storing([&] { EXPECT_EQ((*first)->records.store(make_batch(1, 3)), 3u); });
+  ASSERT_TRUE(test_support::eventually([&] {
+    return query("SELECT count(*) FROM pg_stat_activity WHERE wait_event = 'PgSleep'") > 0;
+  }));
+  change("UPDATE store_holder SET until = now() - interval '1 second'");
+  const auto second = open_waiting("b", std::chrono::seconds(8));
+  ASSERT_TRUE(second) << second.error().what;
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 3) << "before it: it was committed";
+  EXPECT_EQ(query("SELECT max(term) FROM seen"), static_cast<std::int64_t>((*first)->term()));
+  storing.join();
+  EXPECT_FALSE((*first)->records.store(make_batch(4, 6)));
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 3);
+}
+
 /// What a server does beside its database, as sending over a line that others reach too.
 TEST_F(PostgresqlPlaceTest, APlaceThatCannotBeRenewedMayBeAnothersByItsOwnClock) {
   store_.reset();
@@ -214,6 +271,60 @@ TEST_F(PostgresqlPlaceTest, AStandbySeesWhoHasThePlaceAndIsSeen) {
     EXPECT_TRUE(standby.look()->is_own);
   }
   EXPECT_EQ(query("SELECT count(*) FROM store_standby"), 0);
+}
+
+/// A writer that is alive and slow is not tried against; one that was frozen is ended.
+TEST_F(PostgresqlPlaceTest, AStandbyWaitsForATransactionThatHasThePlaceLocked) {
+  store_.reset();
+  PostgresqlStandby standby({.url = database_->url(),
+                             .holder = "srv-2",
+                             .described = "dncd 8 on srv-2",
+                             .lease = std::chrono::seconds(4)});
+  ASSERT_TRUE(standby.look());
+  change(
+      "UPDATE store_holder SET holder = 'srv-1', described = 'dncd 7 on srv-1', until = now() - "
+      "interval '1 second'");
+  ASSERT_TRUE(test_support::eventually([&] { return standby.look()->is_free; }));
+  auto writer = postgresql::Database::connect({.url = database_->url()});
+  const auto hold = [&] {
+    return writer->execute("BEGIN; SELECT 1 FROM store_holder WHERE id = 1 FOR KEY SHARE");
+  };
+  ASSERT_TRUE(hold());
+  const auto locked = standby.look();
+  ASSERT_TRUE(locked) << locked.error().what;
+  EXPECT_FALSE(locked->is_free);
+  EXPECT_TRUE(locked->is_lapsed);
+  ASSERT_TRUE(writer->execute("ROLLBACK"));
+  EXPECT_TRUE(standby.look()->is_free);
+  ASSERT_TRUE(hold());
+  EXPECT_TRUE(test_support::eventually([&] { return standby.look()->is_free; }));
+  EXPECT_FALSE(writer->execute("COMMIT")) << "it wakes up";
+}
+
+/// Of a person, who is not disconnected.
+TEST_F(PostgresqlPlaceTest, AStandbyNamesTheSessionThatHasThePlaceLocked) {
+  store_.reset();
+  PostgresqlStandby standby({.url = database_->url(),
+                             .holder = "srv-2",
+                             .described = "",
+                             .lease = std::chrono::seconds(1)});
+  ASSERT_TRUE(standby.look());
+  change("UPDATE store_holder SET holder = 'srv-1', until = now() - interval '1 second'");
+  auto person = postgresql::Database::connect({.url = database_->url()});
+  ASSERT_TRUE(person->execute("SET application_name = 'psql'"));
+  ASSERT_TRUE(person->execute("BEGIN; SELECT 1 FROM store_holder WHERE id = 1 FOR UPDATE"));
+  std::string obstacle;
+  EXPECT_TRUE(test_support::eventually([&] {
+    const auto view = standby.look();
+    obstacle = view ? view->obstacle : view.error().what;
+    return !obstacle.empty();
+  }));
+  EXPECT_NE(obstacle.find("(psql)"), std::string::npos) << obstacle;
+  EXPECT_TRUE(person->execute("COMMIT"));
+  const auto free = standby.look();
+  ASSERT_TRUE(free) << free.error().what;
+  EXPECT_TRUE(free->is_free);
+  EXPECT_EQ(free->obstacle, "");
 }
 
 TEST_F(PostgresqlPlaceTest, WhoLostThePlaceIsTold) {
