@@ -125,14 +125,20 @@ int not_started(const Settings& settings, const Error& error) {
 struct Turn {
   Settings settings;
   std::uint64_t handed_over = 0;  ///< the term of the place that it handed over last; 0: none
-  int late = 0;                   ///< how often another server was quicker, since the last start
+  int late = 0;                   ///< how often another server was quicker, in a row
+  std::string late_because = {};  ///< of the last time
+  SteadyTime late_since{};        ///< that time
   bool is_first = true;           ///< the process has just been started
   bool is_over = false;           ///< the process ends
 };
 
 /// Until the place is free, which is true at once where no server has it. False: a signal ended it.
 Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
-  auto opened = Standby::open(turn.settings, clock, {.handed_over = turn.handed_over});
+  constexpr std::chrono::minutes kLateEnds{10};
+  if (clock.steady_now() - turn.late_since > kLateEnds) turn.late = 0;
+  auto opened = Standby::open(
+      turn.settings, clock,
+      {.handed_over = turn.handed_over, .late = turn.late, .late_because = turn.late_because});
   if (!opened) return fail(opened.error());
   Standby& standby = **opened;
   if (std::exchange(turn.is_first, false)) {
@@ -174,9 +180,12 @@ int take_turn(Turn& turn, const sigset_t& signals, const Clock& clock) {
       turn.settings, clock, [&end](const Error& error) { end.note_lost(error); },
       [&end] { end.note_handed_over(); });
   if (!server) {
-    // Of several that wait one is the first; or the present one was busy, and is there again.
-    constexpr int kMostLate = 10;
-    if (turn.settings.standby && server.error().code == Errc::Busy && ++turn.late < kMostLate) {
+    // Of several that wait one is the first; or the present one was busy, and is there again. It
+    // waits on, however often that is: without it there is no standby.
+    if (turn.settings.standby && server.error().code == Errc::Busy) {
+      ++turn.late;
+      turn.late_because = server.error().what;
+      turn.late_since = clock.steady_now();
       process::log_warning("not taken over: {}", server.error().what);
       turn.is_over = false;
       return 0;

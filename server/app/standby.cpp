@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -28,6 +29,11 @@ constexpr int kUnavailable = 503;
 /// After a hand-over another server is waited for; when none has come, this one may have it again.
 constexpr std::chrono::seconds kForOthers{10};
 constexpr std::chrono::seconds kPortsEvery{1};
+/// After a try to take over that was in vain: times the number of them, up to so many.
+constexpr std::chrono::milliseconds kLatePause{500};
+constexpr int kMaxLatePauses = 20;
+/// So long after the last of them it is reported.
+constexpr std::chrono::minutes kLateShown{1};
 
 /// What a start would refuse is refused now, and not at the moment of need. Returns the DDS
 /// network.
@@ -100,8 +106,10 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   std::unique_ptr<Standby> standby(new Standby(std::unique_ptr<Parts>(
       new Parts{settings, clock, options, *folder, *std::move(lock), key->public_key().hex(), *http,
                 *std::move(agent), *std::move(network), shared_settings(settings),
-                storage::PostgresqlStandby(
-                    {.url = settings.store, .holder = *holder, .described = description(*folder)}),
+                storage::PostgresqlStandby({.url = settings.store,
+                                            .holder = *holder,
+                                            .described = description(*folder),
+                                            .lease = std::chrono::seconds(settings.takeover_s)}),
                 clock.steady_now()})));
   auto view = standby->parts_->database.look();
   if (!view) return fail(view.error());
@@ -156,6 +164,11 @@ bool Standby::is_for_others(const View& view) const {
   return view.has_others || waited < kForOthers;
 }
 
+bool Standby::is_pausing() const {
+  const int pauses = std::min(parts_->options.late - 1, kMaxLatePauses);  // the first is at once
+  return parts_->clock.steady_now() - parts_->began < std::max(pauses, 0) * kLatePause;
+}
+
 Result<bool> Standby::look() {
   const UtcTime before = parts_->clock.now();
   auto view = parts_->database.look();
@@ -171,9 +184,11 @@ Result<bool> Standby::look() {
   if (view->term != view_.term) {
     if (auto fits = check(*view); !fits) return fail(fits.error());
   }
+  look_at_place(*view);
   look_at_settings(*view);
   look_at_clock(before, *view);
-  const bool is_free = view->is_free && !is_for_others(*view) && faults_.network.empty();
+  const bool is_free =
+      view->is_free && !is_for_others(*view) && !is_pausing() && faults_.network.empty();
   const bool is_due = has_ports(is_free) && is_free;
   const std::lock_guard lock(mutex_);
   if (!std::exchange(faults_.database, "").empty()) process::log_info("the database answers again");
@@ -213,6 +228,19 @@ bool Standby::has_ports(bool is_due) {
   parts_->database.set_able(!faults_.is_unfit());
   parts_->database.set_note(faults_.note());
   return free.has_value();
+}
+
+/// Waited for as long as it takes: the active server may be alive, and slow.
+void Standby::look_at_place(const View& view) {
+  std::string fault;
+  if (!view.obstacle.empty()) {
+    fault =
+        "the lease of the active server is over, but it is not taken over yet: " + view.obstacle;
+  } else if (parts_->options.late > 1 && parts_->clock.steady_now() - parts_->began < kLateShown) {
+    fault = fmt::format("it tried {} times to take over, in vain: {}", parts_->options.late,
+                        parts_->options.late_because);
+  }
+  set_fault(&StandbyFaults::place, std::move(fault), "the place of the active server is in order");
 }
 
 /// What would fail at a takeover is reported now. The machines need no agent: it is none of what is

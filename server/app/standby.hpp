@@ -27,6 +27,10 @@ class Standby {
     /// The term of the place that this process has handed over; another server is to have it next.
     /// 0: it has not.
     std::uint64_t handed_over = 0;
+    /// How often this process has tried to take over in vain, one time soon after the other, and
+    /// why. The next try has a pause before it.
+    int late = 0;
+    std::string late_because = {};
   };
   /// Errors: those of Server::start that its settings, folder, certificates and the connection can
   /// give; Conflict (this folder has not the key or the token of the server that has the database),
@@ -64,6 +68,8 @@ class Standby {
   Result<void> check(const storage::PostgresqlStandby::View& view) const;
   Result<void> check_token(const std::string& token) const;
   bool is_for_others(const storage::PostgresqlStandby::View& view) const;
+  bool is_pausing() const;
+  void look_at_place(const storage::PostgresqlStandby::View& view);
   bool has_ports(bool is_due);
   void look_at_agent();
   void look_at_settings(const storage::PostgresqlStandby::View& view);

@@ -19,6 +19,11 @@ constexpr std::array kFaultRows{
     FaultRow{"store", &StandbyFaults::database,
              "the database that this standby waits for cannot be reached",
              "the database cannot be reached"},
+    FaultRow{
+        "store", &StandbyFaults::place,
+        "this standby tried to take over and could not yet: the active server was there again, "
+        "or its place in the database is locked",
+        "it could not take over yet"},
     FaultRow{"dds", &StandbyFaults::ports,
              "a UDP port that this server needs for gateways is in use: it cannot take over",
              "its UDP ports are in use"},

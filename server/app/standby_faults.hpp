@@ -10,6 +10,7 @@ namespace dripline::app {
 /// the log, and empty while all is well.
 struct StandbyFaults {
   std::string database = {};  ///< it cannot be looked at
+  std::string place = {};     ///< its lease is over, and it could not be taken yet
   std::string ports = {};     ///< UDP ports for gateways are in use: it cannot take over
   std::string network =
       {};                  ///< the active server's gateways would not find it: it cannot take over
