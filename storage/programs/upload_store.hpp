@@ -37,9 +37,10 @@ class UploadStore {
   virtual Result<Upload> begin(const Upload& upload) = 0;
   /// Errors: NotFound.
   virtual Result<Upload> find(const std::string& id) = 0;
-  /// Appends at `offset`. A piece that is stored already may be sent again. Errors: NotFound,
-  /// Conflict (a gap, an overlap, or other bytes than before), LimitExceeded (a piece of more than
-  /// 16 MiB; an attachment of more than kMaxAttachmentBytes).
+  /// Appends at `offset`. A piece that is stored already, or a part of which is, may be sent again:
+  /// what failed may be stored up to some place. Errors: NotFound, Conflict (a gap, or other bytes
+  /// than before), LimitExceeded (a piece of more than 16 MiB; an attachment of more than
+  /// kMaxAttachmentBytes).
   virtual Result<Upload> append(const std::string& id, std::uint64_t offset,
                                 std::span<const std::byte> bytes) = 0;
   /// Bytes received so far, from `offset`, at most `length`; empty after the end. Errors: NotFound.

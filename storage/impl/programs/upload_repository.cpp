@@ -16,6 +16,9 @@ namespace dripline::storage {
 namespace {
 
 constexpr std::uint64_t kMaxPieceBytes = 16 << 20;
+/// Stored in one transaction, or a single chunk: on a line of 512 kbit/s that takes some seconds,
+/// and records and commands of machines wait for no more than one.
+constexpr std::uint64_t kTransactionBytes = 256 << 10;
 
 struct UploadRow {
   Upload upload;
@@ -181,7 +184,12 @@ Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t off
                 "upload {}: the piece begins at {}, but only {} bytes were received", id, offset,
                 received);
   }
-  if (offset < received) return check_resent(id, **progress, offset, bytes);
+  if (offset < received) {
+    const std::uint64_t known = std::min<std::uint64_t>(bytes.size(), received - offset);
+    auto same = check_resent(id, offset, bytes.first(known));
+    if (!same || known == bytes.size()) return same;
+    bytes = bytes.subspan(known);
+  }
   if (received + bytes.size() > AttachmentStore::kMaxAttachmentBytes) {
     if (auto fits = check_attachment_size(id); !fits) return fail(fits.error());
   }
@@ -193,34 +201,51 @@ Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t off
 
 Result<Upload> UploadRepository::store_piece(const std::string& id, UploadProgress& progress,
                                              std::span<const std::byte> bytes) {
+  if (bytes.empty()) return store_part(id, progress, {}, Durability::Normal);
   const auto chunks = encode_chunks(progress.tail, bytes);
-  auto stored = connections_.write([&](sql::Database& database) -> Result<Upload> {
-    auto row = find_row(database, id);
-    if (!row) return fail(row.error());
-    if (auto same = check_unchanged(*row, progress); !same) return fail(same.error());
-    if (bytes.empty()) return std::move(row->upload);
-    const auto put =
-        put_chunks(database, progress.content, progress.received / kChunkBytes, chunks);
-    if (!put) return fail(put.error());
-    const auto updated =
-        sql::run(database, "UPDATE upload SET touched_us = ?2, idle_seconds = 0 WHERE id = ?1", id,
-                 clock_.now());
-    if (!updated) return fail(updated.error());
-    row->upload.received += bytes.size();
-    return std::move(row->upload);
-  });
-  if (stored) progress.advance(bytes);
+  for (std::span<const EncodedChunk> left = chunks;;) {
+    std::size_t count = 0;
+    std::uint64_t stored = 0, plain = 0;
+    while (count < left.size() &&
+           (count == 0 || stored + left[count].data.size() <= kTransactionBytes)) {
+      stored += left[count].data.size();
+      plain += left[count++].size;
+    }
+    const Part part{bytes.first(plain - progress.tail.size()), left.first(count)};
+    bytes = bytes.subspan(part.bytes.size());
+    left = left.subspan(count);
+    // What is committed last is on the disk with all before it.
+    auto done =
+        store_part(id, progress, part, left.empty() ? Durability::Full : Durability::Normal);
+    if (!done || left.empty()) return done;
+  }
+}
+
+Result<Upload> UploadRepository::store_part(const std::string& id, UploadProgress& progress,
+                                            const Part& part, Durability durability) {
+  auto stored = connections_.write(
+      [&](sql::Database& database) -> Result<Upload> {
+        auto row = find_row(database, id);
+        if (!row) return fail(row.error());
+        if (auto same = check_unchanged(*row, progress); !same) return fail(same.error());
+        if (part.bytes.empty()) return std::move(row->upload);
+        const auto put =
+            put_chunks(database, progress.content, progress.received / kChunkBytes, part.chunks);
+        if (!put) return fail(put.error());
+        const auto updated =
+            sql::run(database, "UPDATE upload SET touched_us = ?2, idle_seconds = 0 WHERE id = ?1",
+                     id, clock_.now());
+        if (!updated) return fail(updated.error());
+        row->upload.received += part.bytes.size();
+        return std::move(row->upload);
+      },
+      durability);
+  if (stored) progress.advance(part.bytes);
   return stored;
 }
 
-Result<Upload> UploadRepository::check_resent(const std::string& id, const UploadProgress& progress,
-                                              std::uint64_t offset,
+Result<Upload> UploadRepository::check_resent(const std::string& id, std::uint64_t offset,
                                               std::span<const std::byte> bytes) {
-  if (bytes.size() > progress.received - offset) {
-    return fail(Errc::Conflict,
-                "upload {}: bytes {} to {} overlap what was received: continue at {}", id, offset,
-                offset + bytes.size(), progress.received);
-  }
   return connections_.read([&](sql::Database& database) -> Result<Upload> {
     auto row = find_row(database, id);
     if (!row) return fail(row.error());
@@ -352,47 +377,6 @@ Result<std::uint64_t> UploadRepository::drop_idle(std::chrono::seconds passed,
   });
   if (dropped && *dropped > 0) table_.clear();
   return dropped;
-}
-
-void UploadProgress::advance(std::span<const std::byte> bytes) {
-  if (hash) hash->update(bytes);
-  const std::uint64_t received_before = received;
-  received += bytes.size();
-  const std::uint64_t chunk_begin = received - received % kChunkBytes;
-  if (chunk_begin > received_before) {  // the old tail is complete
-    tail.clear();
-    bytes = bytes.subspan(chunk_begin - received_before);
-  } else if (chunk_begin == received_before) {
-    tail.clear();
-  }
-  tail.insert(tail.end(), bytes.begin(), bytes.end());
-}
-
-std::shared_ptr<UploadProgress> UploadProgressTable::find(const std::string& id) {
-  const std::lock_guard lock(mutex_);
-  const auto found = std::ranges::find(entries_, id, [](const auto& entry) { return entry.first; });
-  if (found == entries_.end()) return nullptr;
-  std::rotate(found, found + 1, entries_.end());
-  return entries_.back().second;
-}
-
-std::shared_ptr<UploadProgress> UploadProgressTable::insert(
-    const std::string& id, std::shared_ptr<UploadProgress> progress) {
-  if (auto kept = find(id)) return kept;
-  const std::lock_guard lock(mutex_);
-  if (entries_.size() >= kCapacity) entries_.erase(entries_.begin());
-  entries_.emplace_back(id, progress);
-  return progress;
-}
-
-void UploadProgressTable::erase(const std::string& id) {
-  const std::lock_guard lock(mutex_);
-  std::erase_if(entries_, [&](const auto& entry) { return entry.first == id; });
-}
-
-void UploadProgressTable::clear() {
-  const std::lock_guard lock(mutex_);
-  entries_.clear();
 }
 
 }  // namespace dripline::storage

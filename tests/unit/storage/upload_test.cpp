@@ -1,3 +1,6 @@
+#include <random>
+
+#include "storage/programs/chunk_codec.hpp"
 #include "tests/unit/storage/store_fixture.hpp"
 
 namespace dripline::storage {
@@ -74,12 +77,41 @@ TEST_P(UploadTest, PieceSentAgainIsNoError) {
   EXPECT_TRUE(store_->uploads.commit(id, sha256(text)));
 }
 
-TEST_P(UploadTest, RefusesGapsOverlapsAndOtherBytes) {
+/// What failed in the middle was stored up to some place.
+TEST_P(UploadTest, APieceOfWhichAPartIsStoredIsCompleted) {
+  const std::string text = nc_text(1'000'000);
+  const std::string id = begin("p.nc");
+  ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(500'000)));
+  const auto again = store_->uploads.append(id, 200'000, bytes_of(text).subspan(200'000));
+  ASSERT_TRUE(again) << again.error().what;
+  EXPECT_EQ(again->received, text.size());
+  ASSERT_TRUE(store_->uploads.commit(id, sha256(text)));
+  EXPECT_EQ(pull(sha256(text)), text);
+}
+
+/// Records of machines and the lease are not kept waiting by a big piece.
+TEST_P(UploadTest, APieceIsStoredInTransactionsOfFewBytes) {
+  std::mt19937 random(7);  // nothing of it is compressed
+  std::string text(2 << 20, '\0');
+  for (char& c : text) c = static_cast<char>(random() & 0xff);
+  change(engine_ == sql::Engine::Sqlite
+             ? "CREATE TRIGGER full BEFORE INSERT ON content_chunk WHEN (SELECT count(*) FROM "
+               "content_chunk) >= 5 BEGIN SELECT RAISE(ABORT, 'full'); END"
+             : "CREATE FUNCTION be_full() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN IF (SELECT "
+               "count(*) FROM content_chunk) >= 5 THEN RAISE 'full'; END IF; RETURN NEW; END $$; "
+               "CREATE TRIGGER full_up BEFORE INSERT ON content_chunk FOR EACH ROW EXECUTE "
+               "FUNCTION be_full()");
+  const std::string id = begin("p.nc");
+  ASSERT_FALSE(store_->uploads.append(id, 0, bytes_of(text)));
+  EXPECT_EQ(store_->uploads.find(id)->received, 5 * kChunkBytes) << "what was before it is there";
+}
+
+TEST_P(UploadTest, RefusesGapsAndOtherBytes) {
   const std::string text = nc_text(1000);
   const std::string id = begin("p.nc");
   ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(500)));
   for (const auto& [offset, piece] :
-       {std::pair(501, text.substr(501)), std::pair(499, text.substr(499)),
+       {std::pair(501, text.substr(501)), std::pair(499, text.substr(500)),
         std::pair(0, std::string("other"))}) {
     const auto refused =
         store_->uploads.append(id, static_cast<std::uint64_t>(offset), bytes_of(piece));
