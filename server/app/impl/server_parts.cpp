@@ -27,6 +27,7 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
       fetcher(make_fetcher()),
       health(clock),
       certificates(health, clock),
+      lost_machines(health, clock),
       waiting_entries(folder.waiting_entries()),
       audit(store->audit, clock,
             library::AuditTrail::Late{.writer = late_writer, .kept = waiting_entries}),
@@ -276,6 +277,7 @@ Result<void> ServerParts::look() {
   ports.open_due();
   if (is_mtconnect_due) open_due_mtconnect();
   if (mtconnect) mtconnect->observer().reconcile(machines.machines());
+  look_at_machines();
   accounts.store_uses();
   (void)revoke_certificates();
   certificates.look(watched_certificates());
@@ -288,6 +290,19 @@ Result<void> ServerParts::look() {
     health.report("", retention->archive_check().finding());
   }
   return sound;
+}
+
+void ServerParts::look_at_machines() {
+  const auto views = machines.machines();
+  std::vector<storage::Run> active;
+  if (LostMachines::is_any_away(views)) {
+    storage::RunFilter filter;
+    filter.state = storage::RunState::Active;
+    auto listed = store->runs.list(filter, {.limit = views.size()});
+    if (!listed) return;  // the probe reports more
+    active = *std::move(listed);
+  }
+  lost_machines.look(views, active);
 }
 
 void ServerParts::write_kept_audit() {

@@ -10,6 +10,7 @@
 
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
+#include "server/app/impl/lost_machines.hpp"
 #include "server/app/networks.hpp"
 #include "server/app/open_store.hpp"
 #include "server/app/settings.hpp"
@@ -110,6 +111,7 @@ struct ServerParts {
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
   /// again.
   Result<void> look();
+  void look_at_machines();
   /// Audit entries of a former life of the server; what cannot be read is a finding.
   void write_kept_audit();
   /// What the file has now; of a file that cannot be read what it had last stays in force.
@@ -137,6 +139,7 @@ struct ServerParts {
   std::unique_ptr<machines::ProgramFetcher> fetcher;  ///< null: there is no cache
   library::Health health;
   library::CertificateWatch certificates;
+  LostMachines lost_machines;
   library::DialectCatalog catalog;
   library::LateWriter late_writer;
   library::WaitingEntries waiting_entries;
