@@ -6,24 +6,58 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace dripline::test {
 namespace {
 
+using SteadyClock = std::chrono::steady_clock;
+
 constexpr int kTickMs = 20;
+constexpr std::size_t kPacket = 1448;  ///< of a slow cable
+
+/// What one direction of a cable may pass now.
+class Allowance {
+ public:
+  void begin_turn(double bytes_per_second) {
+    constexpr double kBurst = 0.1;  // seconds
+    const auto now = SteadyClock::now();
+    const std::chrono::duration<double> passed = now - std::exchange(turned_, now);
+    has_limit_ = bytes_per_second > 0;
+    bytes_ =
+        std::min(bytes_ + passed.count() * bytes_per_second, kPacket + kBurst * bytes_per_second);
+  }
+  std::size_t most() const {
+    constexpr std::size_t kAll = 65536;
+    if (!has_limit_) return kAll;
+    return bytes_ < kPacket ? 0 : kPacket;
+  }
+  void use(std::size_t bytes) {
+    if (has_limit_) bytes_ -= static_cast<double>(bytes);
+  }
+
+ private:
+  SteadyClock::time_point turned_ = SteadyClock::now();
+  bool has_limit_ = false;
+  double bytes_ = 0;
+};
 
 /// False: this side has ended.
-bool pass(int from, int to) {
+bool pass(int from, int to, Allowance& allowance) {
   std::array<char, 65536> bytes{};
-  const auto got = ::recv(from, bytes.data(), bytes.size(), MSG_DONTWAIT);
+  if (allowance.most() == 0) return true;
+  const auto got = ::recv(from, bytes.data(), allowance.most(), MSG_DONTWAIT);
   if (got < 0) return errno == EAGAIN || errno == EINTR;
   if (got == 0) return false;
+  allowance.use(static_cast<std::size_t>(got));
   for (ssize_t sent = 0; sent < got;) {
     const auto more =
         ::send(to, bytes.data() + sent, static_cast<std::size_t>(got - sent), MSG_NOSIGNAL);
@@ -54,6 +88,8 @@ struct DatabaseCable::Pump {
   int listener = -1;
   std::uint16_t port = 0;
   std::atomic<bool> is_pulled = false;
+  std::atomic<std::uint64_t> rate = 0;
+  Allowance up, down;
   std::vector<Link> links;
   std::jthread thread;
 
@@ -82,8 +118,15 @@ struct DatabaseCable::Pump {
     }
     ::poll(wanted.data(), wanted.size(), kTickMs);
     if (is_pulled) return;
+    const std::uint64_t limit = rate;
+    up.begin_turn(static_cast<double>(limit));
+    down.begin_turn(static_cast<double>(limit));
+    if (limit > 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // what waits is there to be read
+      if (!links.empty()) std::rotate(links.begin(), links.begin() + 1, links.end());
+    }
     for (Link& link : links) {
-      if (pass(link.client, link.database) && pass(link.database, link.client)) continue;
+      if (pass(link.client, link.database, up) && pass(link.database, link.client, down)) continue;
       ::close(link.client);
       ::close(link.database);
       link = {};
@@ -125,6 +168,10 @@ DatabaseCable::~DatabaseCable() = default;
 
 void DatabaseCable::pull() {
   pump_->is_pulled = true;
+}
+
+void DatabaseCable::set_rate(std::uint64_t bytes_per_second) {
+  pump_->rate = bytes_per_second;
 }
 
 void DatabaseCable::plug() {

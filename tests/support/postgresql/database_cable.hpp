@@ -7,7 +7,8 @@
 namespace dripline::test {
 
 /// The cable between one server and its database, which a test may pull: nothing passes then in
-/// either direction, and nothing is closed. Thread-safe.
+/// either direction, and nothing is closed. Or it is slow: all connections share its rate, packet
+/// by packet. Thread-safe.
 class DatabaseCable {
  public:
   /// `url`: of a TestDatabase.
@@ -20,6 +21,8 @@ class DatabaseCable {
   const std::string& url() const { return url_; }
   void pull();
   void plug();
+  /// Bytes a second in each direction; 0: as many as there are.
+  void set_rate(std::uint64_t bytes_per_second);
 
  private:
   struct Pump;
