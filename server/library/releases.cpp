@@ -264,6 +264,13 @@ Result<std::optional<storage::Revision>> Releases::pinned_call(
 }
 
 Result<Releases::Admission> Releases::admit(const Wish& wish) {
+  auto admitted = admit_by_state(wish);
+  if (!admitted) return admitted;
+  if (auto good = check_numbering(admitted->revision); !good) return fail(good.error());
+  return admitted;
+}
+
+Result<Releases::Admission> Releases::admit_by_state(const Wish& wish) {
   auto revision = wanted(wish);
   if (!revision) return fail(revision.error());
   const std::string what = fmt::format("program {} revision {} is {}", revision->program,
@@ -284,6 +291,9 @@ std::optional<storage::Revision> Releases::offered(const storage::ProgramSummary
                                                    const std::string& machine) {
   const bool is_open =
       !policy_.runs_released_only && program.latest.state != RevisionState::Withdrawn;
+  const std::string& control = program.latest.control;
+  const bool may_be_parameters = control.empty() || control == "centurion";
+  if (is_open && may_be_parameters && !check_numbering(program.latest)) return std::nullopt;
   if (is_open || program.is_removed || program.latest.is_held) return program.latest;
   if (policy_.runs_released_only && !program.released) return std::nullopt;
   auto admitted = admit({.machine = machine, .program = program.latest.program});

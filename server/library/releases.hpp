@@ -7,6 +7,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/base/signature.hpp"
+#include "server/library/parameter_numbering.hpp"
 #include "server/library/program_closure.hpp"
 #include "server/library/release_policy.hpp"
 #include "storage/store.hpp"
@@ -29,7 +30,7 @@ class Releases {
     std::string database;  ///< its identity
   };
   Releases(Parts parts, ReleasePolicy policy)
-      : parts_(std::move(parts)), policy_(std::move(policy)) {}
+      : parts_(std::move(parts)), policy_(std::move(policy)), numbering_(parts_.store.programs) {}
   const ReleasePolicy& policy() const { return policy_; }
   const PublicKey& public_key() const { return parts_.key.public_key(); }
 
@@ -76,8 +77,12 @@ class Releases {
   };
   /// Errors: NotFound, Conflict (nothing of it may run there: its state is named; it was released
   /// under another name; what its release pins was withdrawn), Corrupt (a decision is not signed by
-  /// this server, or they contradict the state).
+  /// this server, or they contradict the state), Unsupported (check_numbering).
   Result<Admission> admit(const Wish& wish);
+  /// Of what a run calls. Errors: those of ParameterNumbering.
+  Result<void> check_numbering(const storage::Revision& revision) {
+    return numbering_.check(revision);
+  }
   /// What a request from the machine's control gets of a program; absent: nothing of it.
   std::optional<storage::Revision> offered(const storage::ProgramSummary& program,
                                            const std::string& machine);
@@ -101,11 +106,13 @@ class Releases {
   Result<storage::Decision> verify(const storage::Revision& revision, UtcTime moment);
   Result<storage::DecisionFrom> decision(const Request& request, const storage::Revision& revision);
   Result<storage::Revision> release_together(const Request& request, storage::DecisionFrom main);
+  Result<Admission> admit_by_state(const Wish& wish);
   Result<Admission> admit_released(storage::Revision revision);
   Result<void> check_pins(const storage::Decision& release);
 
   Parts parts_;
   const ReleasePolicy policy_;
+  ParameterNumbering numbering_;
 };
 
 }  // namespace dripline::library

@@ -30,7 +30,10 @@ Result<storage::Revision> resolve_called_program(const RunSources& sources, cons
   const auto names = interpreter::called_program_names(name);
   auto pinned = sources.releases.pinned_call(run, names);
   if (!pinned) return fail(pinned.error());
-  if (*pinned) return std::move(**pinned);
+  if (*pinned) {
+    if (auto good = sources.releases.check_numbering(**pinned); !good) return fail(good.error());
+    return std::move(**pinned);
+  }
   for (const auto& candidate : names) {
     auto revisions = sources.store.programs.revisions(candidate);
     if (!revisions) {
@@ -45,6 +48,7 @@ Result<storage::Revision> resolve_called_program(const RunSources& sources, cons
     }
     if (newest == nullptr) continue;
     if (auto good = sources.releases.check_call(*newest, run); !good) return fail(good.error());
+    if (auto good = sources.releases.check_numbering(*newest); !good) return fail(good.error());
     return *newest;
   }
   return fail(Errc::NotFound,

@@ -105,6 +105,33 @@ TEST_F(GatewaysPort, RefusesWhatIsNotThereAndWhatIsSetUpAtTheGatewayWithAReason)
   refuses({"port", "test", "lathe-1"}, "is not connected");
 }
 
+/// A control reads the numbers of an export without its builder's table as other parameters.
+TEST_F(GatewaysPort, SendsNoParametersInNumbersThatTheControlDoesNotHave) {
+  start();
+  const test_support::TemporaryFolder folder;
+  const auto setup = folder.path() / "setup.toml";
+  const auto text = folder.path() / "O9990.nc";
+  std::ofstream(setup) << "units = \"mm\"\n[[offset]]\nname = \"G55\"\nZ = -120.5\n";
+  ASSERT_EQ(dnc({"setup", "push", "lathe-1", setup}).status, 0);
+  const auto exported = dnc({"setup", "export", "lathe-1", "-o", text});
+  ASSERT_EQ(exported.status, 0) << exported.output;
+  const auto pushed = dnc({"program", "push", text, "--name", "O9990", "--control", "centurion"});
+  ASSERT_EQ(pushed.status, 0) << pushed.output;
+  for (const std::vector<std::string>& verb :
+       {std::vector<std::string>{"port", "send", "lathe-1", "O9990"},
+        {"run", "start", "lathe-1", "O9990"},
+        {"job", "add", "lathe-1", "O9990", "--quantity", "1"}}) {
+    const auto done = dnc(verb);
+    EXPECT_NE(done.status, 0) << verb[0] << ": " << done.output;
+    EXPECT_NE(done.output.find("program O9990 revision 1 has parameters in Dripline's own numbers"),
+              std::string::npos)
+        << verb[0] << ": " << done.output;
+    EXPECT_NE(done.output.find("dnc setup export MACHINE --map FILE"), std::string::npos);
+  }
+  EXPECT_EQ(runs(), 0U);
+  EXPECT_EQ(control_->received(), "");
+}
+
 TEST_F(GatewaysPort, TriesTheRulesThatTheGatewayHas) {
   const test_support::TemporaryFolder folder;
   std::ofstream(folder.path() / "rules.toml") << kSendRules;

@@ -44,6 +44,27 @@ TEST_F(ReleasesTest, OpenTakesWhatWasPushedButNotWhatWasWithdrawn) {
   EXPECT_EQ(admit("P").error().code, Errc::Conflict);
 }
 
+/// A control takes the numbers of such a text for other parameters of its own.
+TEST_F(ReleasesTest, ParametersInOurOwnNumbersAreForNoMachine) {
+  const std::string mark = "(DRIPLINE'S OWN NUMBERS OF PARAMETERS: NOT FOR A CONTROL)\n";
+  push("P", mark + "G21\nG10\nP500=1\nG11\nM30\n");
+  EXPECT_EQ(admit("P").error().code, Errc::Unsupported);
+  EXPECT_EQ(admit("P").error().what,
+            "program P revision 1 has parameters in Dripline's own numbers, which a control takes "
+            "for others: it is not sent to a machine. Write it with the numbers of the control's "
+            "builder (dnc setup export MACHINE --map FILE)");
+  const auto listed = store_->programs.list({.limit = 10});
+  ASSERT_TRUE(listed);
+  EXPECT_FALSE(releases_->offered(listed->front(), "lathe-1"));
+  push("P", "%\nO9990\n(BY HAND)\n( dripline s own numbers of parameters : not for a control )\n");
+  EXPECT_FALSE(admit("P")) << "changed by an editor";
+  push("P", "(DRIPLINE WROTE THIS)\nM30\n");
+  EXPECT_TRUE(admit("P"));
+  EXPECT_TRUE(releases_->offered(store_->programs.list({.limit = 10})->front(), "lathe-1"));
+  take_to_release("P", 3);
+  EXPECT_FALSE(admit("P", 1)) << "the verdict on a content is remembered, not on a name";
+}
+
 TEST_F(ReleasesTest, ReleaseTakesTheLatestThatIsReleasedAndSaysWhyNot) {
   use_policy("runs = \"release\"");
   push("P", "M2\n");

@@ -44,6 +44,14 @@ struct Line {
   std::optional<Units> units;
 };
 
+/// Only its letters, as capitals.
+std::string letters_of(std::string_view text) {
+  std::string letters;
+  for (const char c : text)
+    if (kind_of(c) == CharKind::Letter) letters += upper(c);
+  return letters;
+}
+
 std::string without_comment(std::string_view line) {
   std::string text;
   bool in_comment = false;
@@ -248,6 +256,11 @@ Result<ParameterMap> read_parameter_map(std::string_view text) {
   }
   if (map.rows.empty()) return fail(Errc::Syntax, "the map has no row as P500 = P7012");
   return map;
+}
+
+bool has_own_numbering(std::string_view text) {
+  return letters_of(text.substr(0, kNumberingHead)).find(letters_of(kOwnNumbering)) !=
+         std::string::npos;
 }
 
 Result<std::string> write_parameter_text(const Setup& setup, const ParameterMap* map) {

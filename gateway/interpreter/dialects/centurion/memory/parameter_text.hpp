@@ -17,6 +17,10 @@ namespace dripline::interpreter::centurion {
 /// table, is in a numbering that is not known.
 inline constexpr std::string_view kOwnNumbering =
     "(DRIPLINE'S OWN NUMBERS OF PARAMETERS: NOT FOR A CONTROL)";
+/// That line is in the first kNumberingHead bytes, however it is spaced and wherever an O number, a
+/// comment or `%` was put before it.
+bool has_own_numbering(std::string_view text);
+inline constexpr std::size_t kNumberingHead = 65536;
 
 /// Which of our numbers is which of the control's.
 struct ParameterMap {
