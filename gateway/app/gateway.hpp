@@ -89,6 +89,7 @@ class Gateway final : public MachineGateway {
   Reply resume();
   std::optional<Reply> refusal_of_fault() const;
   void answer_query(const dds::Command& command);
+  void show_setup(const std::string& setup);
   void keep_answer(const std::string& command, const Reply& reply);
   Reply carry_out(const PanelCommand& command);
   Reply cycle_start();
@@ -114,6 +115,7 @@ class Gateway final : public MachineGateway {
   Jogger jogger_;
   std::unique_ptr<LineOperator> line_;  ///< null: programs come from the server
   StatusBuilder status_;
+  std::optional<std::string> setup_shown_;  ///< the server's, by which the screen shows
   bool stop_requested_ = false;
 };
 

@@ -66,9 +66,22 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
   commands_.answer(command.id, reply);
 }
 
-/// It changes nothing, so it is answered at once, as often as it comes, and not kept: its sender
-/// asks again when an answer is lost.
+/// MOD functions take effect at once. The position of axes at rest is shown as the next start finds
+/// it, unless a program has left its own coordinates in force.
+void Gateway::show_setup(const std::string& text) {
+  if (setup_shown_ == text) return;
+  const auto setup = positions_.setup_of(text);
+  if (!setup) return;  // the next start is refused for it
+  setup_shown_ = text;
+  status_.take_settings(*setup);
+  if (!run_.session && !run_.frame_left) run_.frame_at_rest = positions_.frame_at_start(text);
+  server_.want_status();
+}
+
+/// It changes nothing but what the screen shows, so it is answered at once, as often as it comes,
+/// and not kept: its sender asks again when an answer is lost.
 void Gateway::answer_query(const dds::Command& command) {
+  show_setup(command.setup);
   if (run_.session) run_.session->keep_memory(machine_->status().executed);
   const double first = std::clamp(command.value, 0.0, 1e9);
   dds::CommandResult result{
@@ -261,6 +274,7 @@ Reply Gateway::set_position(const dds::Command& command) {
     return refuse(fmt::format("what was set cannot be kept: {}", done.error().what));
   }
   (void)memory_.take_change();  // it is reported
+  run_.frame_at_rest = positions_.frame_at_start(command.setup);
   server_.want_status();
   return reply;
 }
@@ -375,6 +389,7 @@ Reply Gateway::rewind_tape() {
 Reply Gateway::discard_memory() {
   if (run_.session) return refuse(fmt::format("run {} is active", run_.session->run().run));
   memory_.discard();
+  run_.frame_at_rest = setup_shown_ ? positions_.frame_at_start(*setup_shown_) : std::nullopt;
   run_.last_message.clear();
   return {};
 }

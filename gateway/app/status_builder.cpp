@@ -142,8 +142,9 @@ dds::Coordinates StatusBuilder::coordinates(const machine::MachineStatus& now) c
   dds::Coordinates shown;
   shown.target = values_of(now.target);
   shown.following_error.emplace();
-  if (!parts_.run.session) return shown;
-  const auto& frame = parts_.run.session->frame_at(now.origin.block);
+  const RunSession* session = parts_.run.session.get();
+  const auto& frame =
+      session != nullptr ? session->frame_at(now.origin.block) : parts_.run.frame_at_rest;
   if (frame) shown.program = shown_frame(*frame, now);
   return shown;
 }

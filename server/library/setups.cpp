@@ -34,10 +34,9 @@ Result<void> Setups::check(const SetupText& text) const {
 }
 
 void Setups::announce(const storage::SetupRevision& saved, const SetupText& text) const {
-  if (!on_saved_) return;
   auto announced = saved;
   announced.text = text.text;
-  on_saved_(announced, text.control);
+  for (const auto& notify : on_saved_) notify(announced, text.control);
 }
 
 Result<SavedSetup> Setups::save(const SetupText& text, const storage::Actor& who) {

@@ -38,10 +38,10 @@ class Setups {
   using Keep = std::function<Result<storage::SetupRevision>(const storage::SetupRevision&)>;
   Result<storage::SetupRevision> save_by(const SetupText& text, const storage::Actor& who,
                                          const Keep& keep);
-  /// Called after a new revision was kept, by who saved it. One listener, set before any save.
+  /// Called after a new revision was kept, by who saved it. All are added before any save.
   void on_saved(
       std::function<void(const storage::SetupRevision&, const std::string& control)> notify) {
-    on_saved_ = std::move(notify);
+    on_saved_.push_back(std::move(notify));
   }
   /// Newest first, without their texts.
   Result<std::vector<storage::SetupRevision>> list(const std::string& machine,
@@ -70,7 +70,8 @@ class Setups {
   storage::SetupStore& store_;
   const ControlCatalog& catalog_;
   AuditTrail& audit_;
-  std::function<void(const storage::SetupRevision&, const std::string& control)> on_saved_;
+  std::vector<std::function<void(const storage::SetupRevision&, const std::string& control)>>
+      on_saved_;
 };
 
 }  // namespace dripline::library

@@ -1,4 +1,6 @@
 // What is asked of a machine besides runs, and what an operator does with its axes at rest.
+#include <utility>
+
 #include "protocol/process/log.hpp"
 #include "server/machines/machine_service.hpp"
 
@@ -35,6 +37,35 @@ Result<std::string> MachineService::values(const ValueQuery& query) {
   command.argument = query.beginning;
   command.value = static_cast<double>(query.passed_over);
   return parts->commands.ask(std::move(command));
+}
+
+/// What a control's screen shows is the setup's, also before the first program of a gateway.
+bool MachineService::is_new_screen(const dds::Status& status) {
+  if (!status.screen || status.serial_line || status.session == 0) return false;
+  const std::lock_guard lock(screens_mutex_);
+  return std::exchange(screens_[status.machine], status.session) != status.session;
+}
+
+void MachineService::show_setup(const std::string& machine) {
+  if (parts() != nullptr) pool_.post([this, machine] { give_setup(machine); });
+}
+
+/// A query brings the setup; this one asks for no values.
+void MachineService::give_setup(const std::string& machine) {
+  constexpr double kPastTheLast = 1e9;
+  Parts* parts = this->parts();
+  const auto view = connected_machine(machine);
+  if (parts == nullptr || !view || !view->status || !view->status->screen) return;
+  if (view->has_serial_line() || view->is_contested) return;
+  const auto setup = setup_of(*view);
+  if (!setup) return;  // it goes with the next start
+  dds::Command command;
+  command.machine = machine;
+  command.action = dds::CommandAction::Query;
+  if (*setup) command.setup = (*setup)->text;
+  command.value = kPastTheLast;
+  if (const auto sent = parts->commands.send(std::move(command)); !sent)
+    process::log_warning("setup not shown machine={}: {}", machine, sent.error().what);
 }
 
 /// With the setup that a start would get: what it gives is the base of what the memory keeps.

@@ -93,7 +93,10 @@ dds::ServerHandlers MachineService::handlers() {
       parts->commands.on_run_seen(status.machine, status.run);
     }
     if (status.serial_line && options_.on_line) options_.on_line(status);
+    const bool lacks_setup = is_new_screen(status);
+    const std::string machine = status.machine;
     registry_.on_status(std::move(status));
+    if (lacks_setup) show_setup(machine);
   };
   handlers.on_line_data = [this](dds::LineData data) {
     if (Parts* parts = this->parts()) parts->lines.on_data(std::move(data));

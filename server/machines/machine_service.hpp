@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -62,6 +63,9 @@ class MachineService final : public MachineControl {
   Result<PositionAnswer> position(const PositionRequest& request) override;
   Result<JogAnswer> jog(const JogRequest& request) override;
   Result<std::string> confirm_gateway(const std::string& machine) override;
+  /// The machine's screen shows by its newest setup from now on, if its gateway is there. It does
+  /// not wait.
+  void show_setup(const std::string& machine);
   dds::Rejected rejected() const;
   /// Promises: LineQueries::ask.
   Result<dds::LineData> ask_line(dds::LineRequest request,
@@ -81,6 +85,8 @@ class MachineService final : public MachineControl {
   void on_stored(const storage::RecordBatch& batch);
   Result<void> command_machine(const CommandRequest& request);
   void on_late_start(const dds::Command& command);
+  bool is_new_screen(const dds::Status& status);
+  void give_setup(const std::string& machine);
   CommandDispatcher::Options command_options() const;
   void abort_unwanted(const storage::Run& run);
   void refuse_stranger(const dds::Announce& announce);
@@ -127,7 +133,9 @@ class MachineService final : public MachineControl {
   std::unique_ptr<Parts> owned_parts_;
   std::atomic<Parts*> parts_{nullptr};
   std::atomic<bool> is_ending_{false};
-  std::uint64_t rejected_logged_ = 0;  ///< this and the next are the tick's
+  std::mutex screens_mutex_;
+  std::map<std::string, std::uint64_t> screens_;  ///< sessions of gateways that have the setup
+  std::uint64_t rejected_logged_ = 0;             ///< this and the next are the tick's
   SteadyTime next_rejected_log_{};
 };
 

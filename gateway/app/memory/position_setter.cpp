@@ -279,22 +279,32 @@ Result<void> PositionSetter::check_jog(Axis axis, double distance,
   if (!setup) return fail(setup.error());
   if (auto has = check_axis(axis, *setup); !has) return has;
   if (auto rests = check_rest(); !rests) return rests;
-  auto control = make_control(*setup);
+  const auto control = control_at_start(*setup);
   if (!control) return fail(control.error());
-  if (control->memory != nullptr) {
-    ControlMemory memory = parts_.memory;  // which this does not change
-    const auto kept = memory.begin(control->memory->memory_cells(), control->numbers, *setup);
-    if (!kept) return fail(kept.error());
-    setup->variables.insert(setup->variables.end(), kept->begin(), kept->end());
-    control = make_control(*setup);
-    if (!control) return fail(control.error());
-  }
   const interpreter::Position from = setup->start;
   interpreter::Position to = from;
   to.set_raw(axis, from.raw(axis) + distance);
   const std::string fault = control->interpreter->travel_fault(from, to);
   if (!fault.empty()) return fail(Errc::LimitExceeded, "{}", fault);
   return {};
+}
+
+Result<PositionSetter::Control> PositionSetter::control_at_start(interpreter::Setup& setup) const {
+  auto control = make_control(setup);
+  if (!control || control->memory == nullptr) return control;
+  ControlMemory memory = parts_.memory;  // which this does not change
+  const auto kept = memory.begin(control->memory->memory_cells(), control->numbers, setup);
+  if (!kept) return fail(kept.error());
+  setup.variables.insert(setup.variables.end(), kept->begin(), kept->end());
+  return make_control(setup);
+}
+
+std::optional<CoordinateFrame> PositionSetter::frame_at_start(
+    const std::string& server_setup) const {
+  auto setup = setup_of(server_setup);
+  if (!setup) return std::nullopt;
+  const auto control = control_at_start(*setup);
+  return control ? control->interpreter->frame() : std::nullopt;
 }
 
 Result<ControlMemory> PositionSetter::memory_at_start(const std::string& server_setup) const {

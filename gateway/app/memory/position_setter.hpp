@@ -38,12 +38,18 @@ class PositionSetter {
   /// axes rest: it is there, their position is certain, and the control's own limits allow it.
   /// `setup`: likewise. Errors: Unsupported, Busy, Conflict, LimitExceeded; those of the setup.
   Result<void> check_jog(interpreter::Axis axis, double distance, const std::string& setup) const;
+  /// In which a start would show the position; nothing: the control reports none, or would not
+  /// start. `setup`: likewise.
+  std::optional<interpreter::CoordinateFrame> frame_at_start(const std::string& setup) const;
+  /// The gateway's own with the server's, and where the axes are. Errors: those of the text.
+  Result<interpreter::Setup> setup_of(const std::string& setup) const;
   /// A copy, as the start of a program would find it. Errors: those of the setup and of the memory.
   Result<ControlMemory> memory_at_start(const std::string& setup) const;
 
  private:
   struct Control;
-  Result<interpreter::Setup> setup_of(const std::string& setup) const;
+  /// With what the memory keeps, which is added to the setup.
+  Result<Control> control_at_start(interpreter::Setup& setup) const;
   Result<Control> make_control(const interpreter::Setup& setup) const;
   /// One that keeps datums and tools.
   Result<Control> control_with(const interpreter::Setup& setup) const;

@@ -277,6 +277,7 @@ void RunLoop::note_left() {
   const bool has_ended_itself = is_completed || (alarm && !alarm->id.starts_with("MCH"));
   const std::uint64_t block = parts_.machine.status().origin.block;
   parts_.run.frame_left = session.frame_at(block);
+  parts_.run.frame_at_rest = parts_.run.frame_left;
   parts_.run.was_shifted = session.modes_at(block).is_shifted;
   parts_.run.tool = session.tool_at_end(has_ended_itself ? std::nullopt : std::optional(block));
   if (!parts_.machine.capabilities().adds_lengths) return;

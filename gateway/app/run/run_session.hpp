@@ -229,6 +229,9 @@ struct CurrentRun {
   /// Of the last program of this process, at its end; nothing: none has run, or its control reports
   /// no coordinates.
   std::optional<interpreter::CoordinateFrame> frame_left = {};
+  /// What the screen shows by without a program: that one, or what the control's memory and the
+  /// server's setup give it since; nothing: not known.
+  std::optional<interpreter::CoordinateFrame> frame_at_rest = {};
   bool was_shifted = false;  ///< at the same moment: ActiveModes::is_shifted
   ToolInPosition tool = {};  ///< between two runs
 

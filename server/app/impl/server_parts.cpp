@@ -158,7 +158,11 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
            .has_tls = !settings.tls_key.empty()}),
       signing_key(loaded.key.public_key().hex()),
       published_settings(shared_settings(settings)),
-      tidied(clock.steady_now()) {}
+      tidied(clock.steady_now()) {
+  setups.on_saved([this](const storage::SetupRevision& saved, const std::string& /*control*/) {
+    machine_service.show_setup(saved.machine);
+  });
+}
 
 machines::MachineService::Options ServerParts::machine_options() {
   machines::MachineService::Options options;

@@ -11,6 +11,7 @@ namespace {
 using dds::CommandAction;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 struct DatumCase {
@@ -264,6 +265,37 @@ TEST(PositionSetter, SaysWhetherSetupOrMemoryHasWhatStandsAgainstIt) {
                                                   Not(HasSubstr("out of the setup"))));
   Shop other(interpreter::kRs274NgcDialect, "[[offset]]\nname = \"G92\"\nX = 5.0\n");
   EXPECT_THAT(other.set("datum G54 X 0 mm"), HasSubstr("take it out of the setup first"));
+}
+
+/// HD-082: the screen of a control at rest shows what playback takes over.
+TEST(ScreenAtRest, ShowsThePositionFromTheDatum) {
+  Shop shop(interpreter::kTnc155Dialect);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status.has_value(); }));
+  EXPECT_FALSE(shop.gateway->status().coordinates->program) << "the server's setup is not known";
+  (void)shop.ask(dds::CommandAction::Query, "");
+  ASSERT_TRUE(shop.gateway->status().coordinates->program);
+  EXPECT_EQ(shop.gateway->status().coordinates->program->position[0], shop.at(0));
+  ASSERT_THAT(shop.set("datum X 40 mm"), Not(StartsWith("refused")));
+  ASSERT_TRUE(shop.gateway->status().coordinates->program);
+  EXPECT_NEAR(shop.gateway->status().coordinates->program->position[0], 40, 1e-9);
+  EXPECT_EQ(shop.playback("X"), "X+40.000 R0");
+  ASSERT_EQ(shop.mdi("X+50 R0 F9000\n"), "completed");
+  ASSERT_TRUE(shop.gateway->status().coordinates->program);
+  EXPECT_NEAR(shop.gateway->status().coordinates->program->position[0], 50, 1e-9)
+      << "also after the end of a program";
+}
+
+/// HD-081: MOD functions take effect when the server has them, not at the next start.
+TEST(ScreenAtRest, FollowsTheModFunctionsAtOnce) {
+  Shop shop(interpreter::kTnc155Dialect);
+  EXPECT_FALSE(shop.gateway->status().screen->is_inch);
+  shop.server_setup = "[control]\nposition_display = \"REF\"\ndisplay_units = \"inch\"\n";
+  (void)shop.ask(dds::CommandAction::Query, "");
+  EXPECT_EQ(shop.gateway->status().screen->position, dds::PositionDisplay::Reference);
+  EXPECT_TRUE(shop.gateway->status().screen->is_inch);
+  shop.server_setup = "wrong";
+  (void)shop.ask(dds::CommandAction::Query, "");
+  EXPECT_EQ(shop.gateway->status().screen->position, dds::PositionDisplay::Reference);
 }
 
 }  // namespace

@@ -38,7 +38,9 @@ TEST(StatusWindow, IsOfTheBlockThatIsExecuted) {
   EXPECT_NEAR(all.program->position[0], 0, 1e-9);
   fixture.ended();
   ASSERT_TRUE(fixture.run_until([&] { return fixture.status->run.empty(); }));
-  EXPECT_FALSE(fixture.status->coordinates->program) << "no program";
+  ASSERT_TRUE(fixture.status->coordinates->program) << "its coordinates are still in force";
+  EXPECT_EQ(fixture.status->coordinates->program->shift[0], 0) << "END PGM takes it out";
+  EXPECT_EQ(fixture.status->coordinates->program->position, fixture.status->position);
   EXPECT_EQ(fixture.status->coordinates->target, fixture.status->position);
 }
 

@@ -65,6 +65,7 @@ TEST_F(MachineRuns, AreNotNeededToAskForTheValuesOfAControl) {
   EXPECT_TRUE(written_->commands.empty());
   status.screen.emplace();
   network_.on_status(status);
+  ASSERT_TRUE(written_->wait([&] { return written_->commands.size() == 1; })) << "its setup";
   written_->on_command = [this](const dds::Command& command) {
     network_.on_command_result(
         {.machine = "lathe-1", .id = command.id, .accepted = true, .reason = "", .values = "{}"});
@@ -72,7 +73,7 @@ TEST_F(MachineRuns, AreNotNeededToAskForTheValuesOfAControl) {
   const auto values = service_->values(query);
   ASSERT_TRUE(values) << values.error().what;
   EXPECT_EQ(*values, "{}");
-  const dds::Command& command = written_->commands.at(0);
+  const dds::Command& command = written_->commands.at(1);
   EXPECT_EQ(command.action, dds::CommandAction::Query);
   EXPECT_EQ(command.argument, "P1");
   EXPECT_EQ(command.value, 20);

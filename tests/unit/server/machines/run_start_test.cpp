@@ -28,6 +28,37 @@ TEST_F(MachineRuns, SendAStartCommandAndAreActiveOnceItIsAccepted) {
   EXPECT_EQ(command.deadline, gateway_steady() + 200ms) << "by the gateway's clock";
 }
 
+/// MOD functions take effect at once: a control's screen shows by the setup without a start.
+TEST_F(MachineRuns, AreNotNeededForTheSetupToBeShown) {
+  start_service();
+  announce();
+  ASSERT_TRUE(setups_->save({"lathe-1", "centurion", "[[tool]]\nnumber = 1\n", ""}, "cam"));
+  const auto setups_shown = [&] {
+    std::vector<std::string> shown;
+    for (const dds::Command& command : written_->commands)
+      if (command.action == dds::CommandAction::Query) shown.push_back(command.setup);
+    return shown;
+  };
+  const auto show = [&] {
+    dds::Status status;
+    status.machine = "lathe-1";
+    status.session = kSession;
+    status.time = clock_.now();
+    status.steady = gateway_steady();
+    status.screen.emplace();
+    network_.on_status(status);
+  };
+  show();
+  ASSERT_TRUE(written_->wait([&] { return setups_shown().size() == 1; })) << "at its beginning";
+  EXPECT_EQ(setups_shown()[0], "[[tool]]\nnumber = 1\n");
+  show();
+  ASSERT_TRUE(setups_->save({"lathe-1", "centurion", "[[tool]]\nnumber = 2\n", ""}, "cam"));
+  service_->show_setup("lathe-1");
+  ASSERT_TRUE(written_->wait([&] { return setups_shown().size() == 2; })) << "once it is stored";
+  EXPECT_EQ(setups_shown()[1], "[[tool]]\nnumber = 2\n");
+  service_->show_setup("nothing");
+}
+
 /// A gateway with a line gives its control no setup: it has what was loaded there.
 TEST_F(MachineRuns, HaveTheSetupThatIsInTheControlBehindAGatewaysLine) {
   push("O0100", "M30\n");
