@@ -22,6 +22,7 @@ struct EditCommand {
   EditedText::Place place;
   std::vector<std::string> deletions;
   Texts insertions, replacements;   ///< block numbers and text
+  Texts copies, moves;              ///< block numbers, and the block that they come after
   Texts values;                     ///< block numbers and words
   Texts omissions, shortenings;     ///< block numbers and addresses
   std::vector<std::string> wanted;  ///< addresses that are looked for
@@ -112,18 +113,42 @@ Result<void> add_word_changes(const EditCommand& command, const EditedText& orig
   return {};
 }
 
+/// The blocks themselves, after another one.
+Result<void> add_copies(const Texts& copies, bool moves, const EditedText& original,
+                        std::vector<BlockChange>& changes) {
+  for (const auto& [blocks, place] : copies) {
+    const auto from = numbers_of(blocks, BlockChange::Kind::Delete);
+    if (!from) return fail(from.error());
+    auto to = numbers_of(place, BlockChange::Kind::Insert);
+    if (!to) return fail(to.error());
+    const std::string_view option = moves ? "--move" : "--copy";
+    if (to->first != to->last)
+      return fail(Errc::Syntax, "{} {} {}: expected one block to put them after", option, blocks,
+                  place);
+    if (moves && to->first >= from->first && to->first <= from->last)
+      return fail(Errc::Syntax, "--move {} {}: block {} is moved itself", blocks, place, to->first);
+    auto text = original.text_of(from->first, from->last);
+    if (!text) return fail(text.error());
+    to->text = *std::move(text);
+    changes.push_back(*std::move(to));
+    if (moves) changes.push_back(*from);
+  }
+  return {};
+}
+
 Result<EditedProgram> change_blocks(const EditCommand& command, const EditedText& original) {
   auto changes = changes_of(command);
   if (!changes) return fail(changes.error());
-  if (auto added = add_word_changes(command, original, *changes); !added) {
-    return fail(added.error());
+  for (const bool moves : {false, true}) {
+    auto added = add_copies(moves ? command.moves : command.copies, moves, original, *changes);
+    if (!added) return fail(added.error());
   }
-  if (auto added = command.texts.add_changes(original, *changes); !added) {
+  if (auto added = add_word_changes(command, original, *changes); !added)
     return fail(added.error());
-  }
+  if (auto added = command.texts.add_changes(original, *changes); !added)
+    return fail(added.error());
   if (changes->empty()) return EditedProgram{original.text(), {}, 0};
-  return original.editor() == nullptr ? program_editing::edit_lines(original.text(), *changes)
-                                      : original.editor()->edit(original.text(), *changes);
+  return original.edited(*changes);
 }
 
 Result<void> change_all(const EditCommand& command, const EditedText& original,
@@ -222,13 +247,16 @@ int show_found(Context& context, const EditCommand& command, const EditedText& o
 Result<void> check_commands(const EditCommand& command) {
   const bool has_changes =
       !command.deletions.empty() || !command.insertions.empty() || !command.replacements.empty() ||
-      !command.values.empty() || !command.omissions.empty() || !command.shortenings.empty() ||
-      command.renumbers || command.protects || command.unprotects || command.texts.changes();
+      !command.copies.empty() || !command.moves.empty() || !command.values.empty() ||
+      !command.omissions.empty() || !command.shortenings.empty() || command.renumbers ||
+      command.protects || command.unprotects || command.texts.changes();
   if (auto checked = command.texts.check(); !checked) return checked;
   if (!has_changes && command.wanted.empty() && !command.texts.finds()) {
-    return fail(Errc::Syntax,
-                "nothing to do: expected --delete, --replace, --insert-after, --set, --leave-out, "
-                "--shorten, --change, --renumber, --protect, --unprotect, --find or --find-text");
+    return fail(
+        Errc::Syntax,
+        "nothing to do: expected --delete, --replace, --insert-after, --copy, --move, --set, "
+        "--leave-out, --shorten, --change, --renumber, --protect, --unprotect, --find or "
+        "--find-text");
   }
   if (has_changes && !command.wanted.empty()) {
     return fail(Errc::Syntax, "--find only shows blocks: expected no changes beside it");
@@ -308,7 +336,8 @@ void add_word_options(Command command, EditCommand& options) {
 
 void add_edit_command(Command app, Context& context) {
   auto command = app.add_subcommand(
-      "edit", "Edit a program: delete, replace, insert and renumber blocks, change words");
+      "edit",
+      "Edit a program: delete, replace, insert, copy, move and renumber blocks, change words");
   auto options = std::make_shared<EditCommand>();
   add_place_options(command, options->place);
   command.add_option("--delete", options->deletions, "Delete blocks: 7, or 5..7")
@@ -321,6 +350,12 @@ void add_edit_command(Command app, Context& context) {
       .add_option("--insert-after", options->insertions,
                   "Insert text after a block; several lines are several blocks")
       .type_name("BLOCK TEXT")
+      .allow_extra_args(false);
+  command.add_option("--copy", options->copies, "Copy blocks after a block: 5..7 12")
+      .type_name("BLOCKS BLOCK")
+      .allow_extra_args(false);
+  command.add_option("--move", options->moves, "Move blocks after a block: 5..7 12")
+      .type_name("BLOCKS BLOCK")
       .allow_extra_args(false);
   add_word_options(command, *options);
   options->texts.add_to(command);
@@ -351,7 +386,8 @@ void add_edit_command(Command app, Context& context) {
       "or "
       "--find\nor --find-text found nothing, 2 usage.\n\nExamples:\n  dnc edit 15.h --delete 5..7 "
       "--insert-after 9 \"L X+10 R0 F MAX M\"\n "
-      " dnc edit 15.h --set 4 F250 --leave-out 5 M\n  dnc edit 15.h --find \"TOOL CALL\"\n  dnc "
+      " dnc edit 15.h --move 5..7 12\n  dnc edit 15.h --set 4 F250 --leave-out 5 M\n  dnc edit "
+      "15.h --find \"TOOL CALL\"\n  dnc "
       "edit O0200 --change T0101 T0202 --whole-words --within 10..40\n  dnc "
       "edit --program 15.h --replace 4 \"TOOL CALL 2 Z S800\" --comment \"new tool\"");
   command.callback([&context, options, renumber] {

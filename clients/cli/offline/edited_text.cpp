@@ -49,6 +49,17 @@ const std::string& EditedText::name() const {
   return place_.file.empty() ? place_.program : place_.file;
 }
 
+Result<program_editing::EditedProgram> EditedText::edited(
+    std::span<const program_editing::BlockChange> changes) const {
+  return editor_ == nullptr ? program_editing::edit_lines(text_, changes)
+                            : editor_->edit(text_, changes);
+}
+
+Result<std::string> EditedText::text_of(std::int64_t first, std::int64_t last) const {
+  return editor_ == nullptr ? program_editing::text_of_lines(text_, first, last)
+                            : editor_->text_of(text_, first, last);
+}
+
 bool EditedText::is_protected() const {
   const auto dialect = interpreter::find_dialect(control_);
   return dialect && (*dialect)->is_protected != nullptr && (*dialect)->is_protected(text_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "clients/cli/context.hpp"
@@ -28,6 +29,11 @@ class EditedText {
   const std::string& text() const { return text_; }
   /// The editor of its control; nullptr: a program is its lines.
   const program_editing::ProgramEditor* editor() const { return editor_; }
+  /// As its control edits it. Errors: those of the editor, or of edit_lines.
+  Result<program_editing::EditedProgram> edited(
+      std::span<const program_editing::BlockChange> changes) const;
+  /// Blocks as the text of an insertion. Errors: those of ProgramEditor::text_of.
+  Result<std::string> text_of(std::int64_t first, std::int64_t last) const;
   /// The program is marked as protected against editing.
   bool is_protected() const;
   /// FILE, or the program's name.

@@ -36,16 +36,10 @@ class Plan {
       return fail(Errc::Syntax, "nothing is there to put in at block {}", change.first);
     }
     if (change.kind == BlockChange::Kind::Insert) return insert(change.first, lines);
-    if (change.last < change.first) {
-      return fail(Errc::Syntax, "blocks {}..{}: the range runs backwards", change.first,
-                  change.last);
-    }
-    const auto first = find_block(numbers_, change.first);
-    if (!first) return fail(first.error());
-    const auto last = find_block(numbers_, change.last);
-    if (!last) return fail(last.error());
-    if (auto dropped = drop(*first, *last); !dropped) return dropped;
-    append(entered_[*first].in_place, lines);
+    const auto range = find_blocks(numbers_, change.first, change.last);
+    if (!range) return fail(range.error());
+    if (auto dropped = drop(range->first, range->second); !dropped) return dropped;
+    append(entered_[range->first].in_place, lines);
     return {};
   }
 
@@ -115,6 +109,12 @@ std::string without_end(std::string_view line) {
   return std::string(line.substr(0, line.find_last_not_of("\r\n") + 1));
 }
 
+std::vector<std::int64_t> numbers_of_lines(std::size_t count) {
+  std::vector<std::int64_t> numbers;
+  for (std::size_t i = 0; i < count; ++i) numbers.push_back(static_cast<std::int64_t>(i) + 1);
+  return numbers;
+}
+
 }  // namespace
 
 Result<std::size_t> find_block(std::span<const std::int64_t> numbers, std::int64_t number) {
@@ -124,6 +124,17 @@ Result<std::size_t> find_block(std::span<const std::int64_t> numbers, std::int64
     return fail(Errc::Conflict, "block {} occurs more than once: renumber first", number);
   }
   return static_cast<std::size_t>(found - numbers.begin());
+}
+
+Result<std::pair<std::size_t, std::size_t>> find_blocks(std::span<const std::int64_t> numbers,
+                                                        std::int64_t first, std::int64_t last) {
+  if (last < first)
+    return fail(Errc::Syntax, "blocks {}..{}: the range runs backwards", first, last);
+  const auto begin = find_block(numbers, first);
+  if (!begin) return fail(begin.error());
+  const auto end = find_block(numbers, last);
+  if (!end) return fail(end.error());
+  return std::pair(*begin, *end);
 }
 
 Result<std::vector<EditStep>> plan_edit(std::span<const std::int64_t> numbers,
@@ -137,11 +148,7 @@ Result<std::vector<EditStep>> plan_edit(std::span<const std::int64_t> numbers,
 
 Result<EditedProgram> edit_lines(std::string_view text, std::span<const BlockChange> changes) {
   const auto lines = lines_with_ends(text);
-  std::vector<std::int64_t> numbers;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    numbers.push_back(static_cast<std::int64_t>(i) + 1);
-  }
-  const auto steps = plan_edit(numbers, changes);
+  const auto steps = plan_edit(numbers_of_lines(lines.size()), changes);
   if (!steps) return fail(steps.error());
   const std::string_view line_end = line_end_of(text);
   EditedProgram edited;
@@ -162,6 +169,15 @@ Result<EditedProgram> edit_lines(std::string_view text, std::span<const BlockCha
   return edited;
 }
 
+Result<std::string> text_of_lines(std::string_view text, std::int64_t first, std::int64_t last) {
+  const auto lines = lines_with_ends(text);
+  const auto range = find_blocks(numbers_of_lines(lines.size()), first, last);
+  if (!range) return fail(range.error());
+  std::string found;
+  for (std::size_t i = range->first; i <= range->second; ++i) found += without_end(lines[i]) + "\n";
+  return found;
+}
+
 std::string_view line_end_of(std::string_view text) {
   const std::size_t end = text.find('\n');
   return end != std::string_view::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
@@ -172,6 +188,7 @@ namespace {
 constexpr std::array kEditors{ProgramEditor{.control = "tnc155",
                                             .protect = &with_protection,
                                             .edit = &edit_program,
+                                            .text_of = &text_of_blocks,
                                             .change_words = &change_words,
                                             .search = &search_words,
                                             .renumber = &renumbered}};

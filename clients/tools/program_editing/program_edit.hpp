@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "protocol/base/result.hpp"
@@ -51,10 +52,17 @@ Result<std::vector<EditStep>> plan_edit(std::span<const std::int64_t> numbers,
 
 /// Which block has this number. Errors: NotFound, Conflict (the number is programmed twice).
 Result<std::size_t> find_block(std::span<const std::int64_t> numbers, std::int64_t number);
+/// The first and the last block of a range. Errors: likewise; Syntax (from right to left).
+Result<std::pair<std::size_t, std::size_t>> find_blocks(std::span<const std::int64_t> numbers,
+                                                        std::int64_t first, std::int64_t last);
 
 /// Blocks are the lines of the text, numbered from 1; they keep their line ends. Errors: those of
 /// plan_edit.
 Result<EditedProgram> edit_lines(std::string_view text, std::span<const BlockChange> changes);
+
+/// Those lines, without numbers of their own: as the text of an insertion. Errors: those of
+/// find_block; Syntax (a range from right to left).
+Result<std::string> text_of_lines(std::string_view text, std::int64_t first, std::int64_t last);
 
 /// "\r\n" where the text's first line ends so, else "\n".
 std::string_view line_end_of(std::string_view text);
@@ -95,6 +103,9 @@ struct ProgramEditor {
   /// control reads them and written as it writes them. Errors: those of plan_edit; Syntax (a block
   /// the control refuses, with its message), LimitExceeded (no block number is left).
   Result<EditedProgram> (*edit)(std::string_view text, std::span<const BlockChange> changes);
+  /// Blocks without their numbers, one a line: as the text of an insertion. Errors: those of
+  /// find_block; Syntax (a range from right to left; the program's form).
+  Result<std::string> (*text_of)(std::string_view text, std::int64_t first, std::int64_t last);
   /// Turns changes of words into replaced blocks for `edit`. Sets are applied first. Errors: those
   /// of find_block; NotFound (the block has no such word), Conflict (a word is changed twice),
   /// Syntax (not a word of the control, or the resulting block is refused).
@@ -114,6 +125,7 @@ const ProgramEditor* find_program_editor(std::string_view control);
 // Contracts: `ProgramEditor`.
 
 Result<EditedProgram> edit_program(std::string_view text, std::span<const BlockChange> changes);
+Result<std::string> text_of_blocks(std::string_view text, std::int64_t first, std::int64_t last);
 Result<std::vector<BlockChange>> change_words(std::string_view text,
                                               std::span<const WordChange> changes);
 Result<WordSearch> search_words(std::string_view text, std::span<const std::string> addresses);

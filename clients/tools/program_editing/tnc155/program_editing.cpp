@@ -224,6 +224,24 @@ class Editor {
 
 }  // namespace
 
+/// What is put in elsewhere gets a number there.
+Result<std::string> text_of_blocks(std::string_view text, std::int64_t first, std::int64_t last) {
+  const CutProgram program(text);
+  if (auto checked = program.check(); !checked) return fail(checked.error());
+  const auto range = find_blocks(program.numbers(), first, last);
+  if (!range) return fail(range.error());
+  std::string found;
+  for (std::size_t i = range->first; i <= range->second; ++i) {
+    const std::string block = program.blocks()[i].text();
+    std::string_view words = block;
+    if (program.form() == Form::Iso && words.starts_with('N')) words.remove_prefix(1);
+    const bool is_numbered = !words.empty() && is_decimal(words.front());
+    while (is_numbered && !words.empty() && is_decimal(words.front())) words.remove_prefix(1);
+    found.append(is_numbered ? words : std::string_view(block)).append("\n");
+  }
+  return found;
+}
+
 Result<EditedProgram> edit_program(std::string_view text, std::span<const BlockChange> changes) {
   return Editor(text).edit(changes);
 }

@@ -45,6 +45,41 @@ TEST_F(DncEdit, ChangesAFileByBlockNumbersAndShowsWhat) {
             "7 END PGM 15 MM\n");
 }
 
+// CEN-209
+TEST_F(DncEdit, CopiesAndMovesBlocks) {
+  const std::string lines = "O1\nG1 X1\nG1 X2\nG1 X3\nM30\n";
+  dnc.write("O1.nc", lines);
+  const auto moved = dnc({"edit", "O1.nc", "--control", "centurion", "--move", "2..3", "4"});
+  EXPECT_EQ(moved.status, 0) << moved.err;
+  EXPECT_EQ(moved.out, "-G1 X1\n-G1 X2\n+G1 X1\n+G1 X2\nWrote O1.nc.\n");
+  EXPECT_EQ(dnc.read("O1.nc"), "O1\nG1 X3\nG1 X1\nG1 X2\nM30\n");
+  EXPECT_EQ(dnc({"edit", "O1.nc", "--control", "centurion", "--copy", "2", "4"}).status, 0);
+  EXPECT_EQ(dnc.read("O1.nc"), "O1\nG1 X3\nG1 X1\nG1 X2\nG1 X3\nM30\n");
+  const auto itself = dnc({"edit", "O1.nc", "--control", "centurion", "--move", "2..4", "3"});
+  EXPECT_EQ(itself.status, 1);
+  EXPECT_EQ(itself.err, "error: --move 2..4 3: block 3 is moved itself\n");
+  const auto absent = dnc({"edit", "O1.nc", "--control", "centurion", "--copy", "9", "3"});
+  EXPECT_NE(absent.err.find("block 9 is not there"), std::string::npos) << absent.err;
+  EXPECT_EQ(dnc.read("O1.nc"), "O1\nG1 X3\nG1 X1\nG1 X2\nG1 X3\nM30\n");
+}
+
+TEST_F(DncEdit, NumbersTheBlocksThatItCopiesAndMoves) {
+  dnc.write("15.h", kProgram);
+  const auto edited = dnc({"edit", "15.h", "--move", "4", "5", "--copy", "2", "5"});
+  EXPECT_EQ(edited.status, 0) << edited.err;
+  EXPECT_EQ(dnc.read("15.h"),
+            "0 BEGIN PGM 15 MM\n"
+            "1 TOOL DEF 1 L+0,000 R+5,000\n"
+            "2 TOOL CALL 1 Z S500,000\n"
+            "3 L X+10,000 Y+20,000 R0 F15999 M03\n"
+            "4 L X+40,000 R F200 M\n"
+            "5 TOOL CALL 1 Z S 500,000\n"
+            "6 L Z-5,000 R F100 M08\n"
+            "7 END PGM 15 MM\n");
+  const auto frame = dnc({"edit", "15.h", "--copy", "0", "3"});
+  EXPECT_NE(frame.err.find("a program begins and ends once"), std::string::npos) << frame.err;
+}
+
 // HD-061
 TEST_F(DncEdit, LeavesTheFileAsItIsWhenTheControlRefusesABlock) {
   dnc.write("15.h", kProgram);
