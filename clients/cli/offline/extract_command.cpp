@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <system_error>
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
@@ -29,7 +31,10 @@ Result<void> write_program(const fs::path& path, std::string_view text) {
   std::ofstream file(path, std::ios::binary);
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
   file.close();
-  if (!file) return fail(Errc::Io, "{}: cannot be written", path.string());
+  if (!file) {
+    const std::string why = std::generic_category().message(errno);
+    return fail(Errc::Io, "{}: cannot be written: {}", path.string(), why);
+  }
   return {};
 }
 
@@ -56,6 +61,12 @@ int extract(const Context& context, const ExtractCommand& command) {
   if (numbered.empty()) {
     return complain_with(Error{Errc::NotFound, fmt::format("{}: no O number", command.input)},
                          kExitNo);
+  }
+  if (std::error_code ec; !fs::is_directory(command.folder, ec)) {
+    const std::string why = ec && ec != std::errc::no_such_file_or_directory
+                                ? ec.message()
+                                : "there is no such folder; make it first";
+    return complain_with(Error{Errc::NotFound, fmt::format("{}: {}", command.folder, why)});
   }
   const auto path_of = [&](std::uint32_t number) {
     return fs::path(command.folder) / fmt::format("O{:04}", number);

@@ -213,6 +213,13 @@ int show_milled(Context& context, const GraphicsCommand& command, const OfflineP
   if (!outcome) return complain_offline(outcome.error());
   if (simulation.failure()) return complain(*simulation.failure());
   if (!simulation.part()) {
+    // What it would have called may have its blank.
+    if (outcome->alarm) {
+      return complain(
+          Error{Errc::NotFound,
+                fmt::format("the program alarms in {}: {}; until then it defines no blank",
+                            program->alarm_place(source, *outcome), outcome->alarm->text)});
+    }
     return complain(Error{Errc::NotFound,
                           "the program defines no blank; give one: --blank X0:100,Y0:80,Z-20:0"});
   }

@@ -36,6 +36,13 @@ TEST_F(DncCenturion, ExtractWritesEachProgramOnce) {  // CEN-202
   EXPECT_EQ(dnc({"extract", "all.txt", "--replace"}).status, 0);
 }
 
+TEST_F(DncCenturion, ExtractNamesAFolderThatIsNotThere) {
+  dnc.write("all.txt", "O12\nX1\n");
+  const auto refused = dnc({"extract", "all.txt", "-o", "absent"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err, "dnc: absent: there is no such folder; make it first\n");
+}
+
 TEST_F(DncCenturion, ExtractWritesNothingOfATextThatDoesNotBeginWithANumber) {
   dnc.write("all.txt", "X9\nO12\nX1\n");
   EXPECT_EQ(dnc({"extract", "all.txt"}).status, 1);

@@ -79,6 +79,15 @@ class DncTncGraphics : public testing::Test {
   Dnc dnc{DNC_PATH};
 };
 
+TEST_F(DncTncGraphics, NameTheProgramThatIsAbsentBeforeTheBlankIs) {
+  dnc.write("calls.h", "0 BEGIN PGM 2 MM\n1 CALL PGM 99\n2 END PGM 2 MM\n");
+  const auto refused = dnc({"graphics", "--control", "tnc155", "calls.h", "-o", "a.png"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("99"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("line 2"), std::string::npos) << refused.err;
+  EXPECT_EQ(refused.err.find("give one"), std::string::npos) << refused.err;
+}
+
 TEST_F(DncTncGraphics, AreThoseOfATnc155) {
   EXPECT_EQ(dnc({"graphics", "plate.h", "-o", "a.png", "--size", "32"}).status, 0);
   EXPECT_EQ(graphics("model = \"TNC 155 E\"\nsoftware = 1\n", "-o", "b.png").status, 0);
