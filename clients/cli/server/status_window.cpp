@@ -27,9 +27,13 @@ std::string_view choice_name(const client::MachineStatus& status) {
   return {};
 }
 
-/// "position", "position (DIST)"
+/// "position", "position (DIST)". Where what the operator chose is not known it is the machine's.
 std::string position_name(const client::MachineStatus& status) {
   const std::string_view name = choice_name(status);
+  if (status.coordinates && !status.coordinates->program) {
+    if (name == "ACTL") return "machine position (REF)";
+    if (name == "NOML") return "machine position, where the move ends";
+  }
   return name.empty() ? "position" : fmt::format("position ({})", name);
 }
 
@@ -117,15 +121,29 @@ std::string scale_text(const std::map<std::string, double>& scale) {
   return text;
 }
 
-void add_frame(Details& details, const client::ProgramFrame& frame,
+std::string mirrored_text(const client::ProgramFrame& frame) {
+  return frame.mirrored.empty() ? "none" : fmt::format("{}", fmt::join(frame.mirrored, " "));
+}
+
+/// A HEIDENHAIN control shows all of it. Another one has no such fields: there it is what lies
+/// between the machine and its program's coordinates, as far as something does.
+void add_frame(Details& details, const client::MachineStatus& status,
                const client::Display& display) {
+  const client::ProgramFrame& frame = *status.coordinates->program;
   details.add("datum", with_unit(frame.datum, display));
   details.add("datum shift", with_unit(frame.shift, display));
-  details.add("rotation (ROT)", rotation_text(frame));
-  details.add("scale (SCL)", scale_text(frame.scale));
-  details.add("mirrored",
-              frame.mirrored.empty() ? "none" : fmt::format("{}", fmt::join(frame.mirrored, " ")));
-  details.add("pole (CC)", frame.pole ? with_unit(*frame.pole, display) : "none");
+  if (!choice_name(status).empty()) {
+    details.add("rotation (ROT)", rotation_text(frame));
+    details.add("scale (SCL)", scale_text(frame.scale));
+    details.add("mirrored", mirrored_text(frame));
+    details.add("pole (CC)", frame.pole ? with_unit(*frame.pole, display) : "none");
+    return;
+  }
+  const auto is_scaled = [](const auto& axis) { return axis.second != 1; };
+  if (frame.rotation != 0 || frame.basic_rotation != 0)
+    details.add("rotation", rotation_text(frame));
+  if (std::ranges::any_of(frame.scale, is_scaled)) details.add("scale", scale_text(frame.scale));
+  if (!frame.mirrored.empty()) details.add("mirrored", mirrored_text(frame));
 }
 
 }  // namespace
@@ -215,7 +233,7 @@ void add_coordinates(Details& details, const client::MachineStatus& status,
               with_unit(all.distance_to_go, display));
   details.add(display_name(status, "following error", "LAG"),
               all.following_error ? with_unit(*all.following_error, display) : "not measured");
-  if (all.program) add_frame(details, *all.program, display);
+  if (all.program) add_frame(details, status, display);
 }
 
 }  // namespace dripline::cli

@@ -177,6 +177,7 @@ TEST(MachineDetails, ShowPositionDisplaysAndTransformations) {
                                                     .distance_to_go = {{"X", 7.5}, {"Z", 0}},
                                                     .following_error = {{{"X", 0}, {"Z", 0}}},
                                                     .program = client::ProgramFrame{}};
+  machine.status->screen = client::Screen{.position = "actual"};
   client::ProgramFrame& frame = *machine.status->coordinates->program;
   frame.position = {{"Z", 2}, {"X", 1}};
   frame.target = {{"X", 16}, {"Z", 2}};

@@ -58,6 +58,43 @@ TEST(ShownPosition, IsWhatTheOperatorChose) {
   EXPECT_EQ(shown_position(status).at("X"), 25.4);
 }
 
+/// The position on the machine is not called one of a program's.
+TEST(MachineDetails, NameThePositionOnTheMachineAsSuch) {
+  client::Machine machine = idle_tnc();
+  const auto shows = [&machine](const std::string& choice, const std::string& name) {
+    machine.status->screen->position = choice;
+    const std::string text = machine_details(machine).render(false);
+    return text.find("\n" + name + " ") == std::string::npos ? text : "";
+  };
+  EXPECT_EQ(shows("actual", "machine position (REF)"), "");
+  EXPECT_EQ(shows("nominal", "machine position, where the move ends"), "");
+  EXPECT_EQ(shows("reference", "position (REF)"), "");
+  machine.status->coordinates->program.emplace().position = {{"X", 3}};
+  machine.status->coordinates->program->target = {{"X", 4}};
+  EXPECT_EQ(shows("actual", "position (ACTL)"), "");
+  EXPECT_EQ(shows("nominal", "position (NOML)"), "");
+}
+
+/// Rotation, scale and pole under a TNC's names are a TNC's.
+TEST(MachineDetails, ShowTheFieldsOfAFrameWhereTheControlHasThem) {
+  client::Machine machine = idle_tnc();
+  client::ProgramFrame& frame = machine.status->coordinates->program.emplace();
+  frame.scale = {{"X", 1}, {"Y", 1}, {"Z", 1}};
+  const std::string own = machine_details(machine).render(false);
+  for (const char* field : {"rotation (ROT)", "scale (SCL)", "mirrored", "pole (CC)"})
+    EXPECT_NE(own.find(field), std::string::npos) << field << " in\n" << own;
+  machine.status->screen->position.clear();
+  const std::string plain = machine_details(machine).render(false);
+  for (const char* field : {"ROT", "SCL", "(CC)", "rotation", "scale", "mirrored", "pole"})
+    EXPECT_EQ(plain.find(field), std::string::npos) << field << " in\n" << plain;
+  frame.rotation = 30;
+  frame.mirrored = {"X"};
+  const std::string turned = machine_details(machine).render(false);
+  for (const char* field : {"rotation  ", "30.000 degrees", "mirrored"})
+    EXPECT_NE(turned.find(field), std::string::npos) << field << " in\n" << turned;
+  EXPECT_EQ(turned.find("(ROT)"), std::string::npos) << turned;
+}
+
 /// CEN-203: what DNC FAST shows of a program that was fed.
 TEST(RunStatistics, AreShownInTheUnitsOfTheControl) {
   const client::RunStatistics statistics{.motion_seconds = 60,
