@@ -81,7 +81,8 @@ void add_value_verbs(Command group, Context& context) {
       "They are asked of the gateway, as the executed blocks have left them (before the first run: "
       "as its start\nwould find them): those that the "
       "control keeps from\nblock to block and from program to program, with its own names and in "
-      "its own units, and those that it shows\nwhile a program runs (Q parameters of a TNC). What "
+      "its own units, and those that it shows\nwhile a program runs (Q parameters of a TNC, #1 and "
+      "up of a Fanuc, named parameters of LinuxCNC). What "
       "runs "
       "have left is kept on the server: dnc memory show.\n\n"
       "Example:\n  dnc machine parameters lathe-1 P1");

@@ -77,6 +77,8 @@ class ControlMemory {
   /// What the control shows of the present program, or of the last one, and does not keep: nothing
   /// of this goes to disk.
   void begin_live(std::vector<std::string> names, const std::vector<double>& values);
+  /// One more name, vacant.
+  void add_live(std::string name) { live_.push_back({std::move(name), interpreter::kVacant}); }
   void note_live(std::size_t place, double value) { live_.at(place).value = value; }
   /// Whether anything has changed since this was asked last.
   bool take_change() { return std::exchange(has_changed_, false); }

@@ -212,6 +212,12 @@ void RunSession::begin_live() {
 
 void RunSession::note_live() {
   if (live_ == nullptr || !live_->read_live(live_now_)) return;
+  if (live_now_.size() > live_known_.size()) {
+    const auto names = live_->live_names();
+    for (std::size_t i = live_known_.size(); i < names.size(); ++i)
+      parts_.memory.add_live(names[i]);
+    live_known_.resize(live_now_.size(), interpreter::kVacant);
+  }
   for (std::size_t i = 0; i < live_now_.size(); ++i) {
     if (report::is_same_number(live_known_[i], live_now_[i])) continue;
     live_known_[i] = live_now_[i];

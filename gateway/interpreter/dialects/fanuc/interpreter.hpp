@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gateway/interpreter/core/live_values.hpp"
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
@@ -7,7 +8,9 @@
 namespace dripline::interpreter::fanuc {
 
 /// A Fanuc-class machining center control: text to events, one block at a time.
-class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public RetainedMemory {
+class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>,
+                               public RetainedMemory,
+                               public LiveValues {
  public:
   FanucInterpreter(ControlOptions options, ModalState state, const Memory& memory,
                    ProgramSource& source, EventSink& sink);
@@ -23,6 +26,9 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
   std::string travel_fault(const Position& from, const Position& to) override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
+  /// #1 to #33 of the program that is executed, and #100 and up where a reset clears them.
+  std::vector<std::string> live_names() const override;
+  bool read_live(std::vector<double>& values) override;
 
  private:
   friend BlockInterpreter;
@@ -54,6 +60,11 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
     ToolOffsets tools;
   };
   KnownMemory known_memory_;  ///< when it was read last
+  struct KnownLive {
+    Locals locals{};
+    decltype(ModalState::commons) commons{};
+  };
+  std::optional<KnownLive> known_live_;  ///< likewise
 };
 
 }  // namespace dripline::interpreter::fanuc

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/live_values.hpp"
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/flow.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
@@ -10,7 +11,8 @@ namespace dripline::interpreter::rs274ngc {
 /// One run of one program; see Interpreter for the contract. A block is every line that is
 /// executed, empty ones included; lines that a condition or a call passes over are none.
 class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
-                                  public RetainedMemory {
+                                  public RetainedMemory,
+                                  public LiveValues {
  public:
   Rs274NgcInterpreter(ControlOptions options, std::vector<Tool> tools, State state,
                       const Parameters& parameters, ProgramSource& source, EventSink& sink);
@@ -34,6 +36,9 @@ class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
   std::optional<CoordinateFrame> frame() const override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
+  /// Named parameters: the global ones, and those of the call that is executed.
+  std::vector<std::string> live_names() const override;
+  bool read_live(std::vector<double>& values) override;
 
  private:
   friend BlockInterpreter;
@@ -65,6 +70,12 @@ class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
   std::vector<int> in_file_;       ///< free parameters that the parameter file lists, rising
   Parameters known_parameters_;    ///< when the memory was read last
   std::vector<Tool> known_tools_;
+  struct SeenNames {
+    std::uint64_t changes = 0;
+    std::size_t level = 0, count = 0;
+    friend bool operator==(const SeenNames&, const SeenNames&) = default;
+  };
+  std::optional<SeenNames> names_seen_;  ///< when they were read last
 };
 
 }  // namespace dripline::interpreter::rs274ngc

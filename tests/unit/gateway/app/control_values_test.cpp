@@ -77,6 +77,45 @@ TEST(LiveControlValues, OfATncAreItsQParameters) {
   EXPECT_EQ(q("Q17"), 8.0) << "of the last program, until the next one begins";
 }
 
+/// What a program has set up to its stop, and what it reads ahead is not there yet.
+json values_at_stop(const interpreter::Dialect& control, const std::string& setup,
+                    const std::string& text, const std::string& beginning = "#") {
+  GatewayFixture fixture(control, *interpreter::parse_setup(setup), "1x");
+  fixture.push("P", text);
+  EXPECT_TRUE(fixture.start("P").accepted);
+  EXPECT_TRUE(fixture.run_until([&] {
+    return fixture.status && fixture.status->execution == dds::Execution::ProgramStopped;
+  })) << fixture.status->message;
+  dds::Command query = fixture.command(dds::CommandAction::Query);
+  query.argument = beginning;
+  json shown = json::object();
+  const json answer = json::parse(fixture.send(query).values);
+  for (const json& one : answer["values"]) {
+    const std::string name = one["name"];
+    if (!one["value"].is_null()) shown[name] = one["value"];
+  }
+  return shown;
+}
+
+// With reset_clears_commons, the default, #100 and up are not kept either.
+TEST(LiveControlValues, OfAFanucAreItsLocalsAndWhatAResetClears) {
+  const json shown = values_at_stop(interpreter::kFanucDialect, "",
+                                    "O1\n#1=3.5\n#101=7\n#500=2\nM0\n#101=8\n#102=1\nM30\n");
+  EXPECT_EQ(shown.value("#1", 0.0), 3.5) << shown.dump();
+  EXPECT_EQ(shown.value("#101", 0.0), 7.0);
+  EXPECT_EQ(shown.value("#500", 0.0), 2.0) << "kept";
+  EXPECT_FALSE(shown.contains("#102"));
+}
+
+TEST(LiveControlValues, OfLinuxCncAreItsNamedParameters) {
+  const json shown =
+      values_at_stop(interpreter::kRs274NgcDialect, "[control]\nprofile = \"linuxcnc\"\n",
+                     "#<_depth> = 1.5\n#<width> = 2\nM0\n#<_depth> = 9\n#<later> = 1\nM2\n", "#<");
+  EXPECT_EQ(shown.value("#<_depth>", 0.0), 1.5) << shown.dump();
+  EXPECT_EQ(shown.value("#<width>", 0.0), 2.0);
+  EXPECT_FALSE(shown.contains("#<later>"));
+}
+
 TEST_F(ControlValues, OfALongMemoryComeInPages) {
   fixture_.push("O1", "P10=7.5\nM30\n");
   ASSERT_TRUE(fixture_.start("O1").accepted);

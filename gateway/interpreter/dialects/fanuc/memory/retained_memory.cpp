@@ -1,5 +1,6 @@
 #include "gateway/interpreter/dialects/fanuc/memory/retained_memory.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -49,6 +50,31 @@ bool FanucInterpreter::read_memory(std::vector<double>& values) {
     for_each_variable(run_.state, run_.options, visit);
     for_each_offset(run_.memory, run_.options.is_lathe, visit);
   });
+  return true;
+}
+
+std::vector<std::string> FanucInterpreter::live_names() const {
+  std::vector<std::string> names;
+  for (int number = 1; number <= kLocalCount; ++number) names.push_back(fmt::format("#{}", number));
+  if (!run_.options.reset_clears_commons) return names;
+  for (int number = 100; number <= run_.options.last_common; ++number)
+    names.push_back(fmt::format("#{}", number));
+  return names;
+}
+
+bool FanucInterpreter::read_live(std::vector<double>& values) {
+  const Locals& locals = run_.state.locals.back();
+  const auto& commons = run_.state.commons;
+  bool has_changed = !known_live_;
+  if (!known_live_) known_live_.emplace();
+  has_changed |= note(known_live_->locals, locals);
+  has_changed |= note(known_live_->commons, commons);
+  if (!has_changed) return false;
+  values.assign(locals.begin(), locals.end());
+  if (run_.options.reset_clears_commons) {
+    const auto count = static_cast<std::ptrdiff_t>(run_.options.last_common) - 99;
+    values.insert(values.end(), commons.begin(), commons.begin() + count);
+  }
   return true;
 }
 

@@ -25,10 +25,12 @@ void NamedParameters::set(NameId id, std::size_t level, double value) {
   Values& all = is_global(id) ? globals_ : locals_[level];
   if (id >= all.size()) all.resize(std::size_t{id} + 1);
   all[id] = {value, true};
+  ++changes_;
 }
 
 void NamedParameters::enter(std::size_t level) {
   locals_[level].clear();
+  ++changes_;
 }
 
 }  // namespace dripline::interpreter::rs274ngc

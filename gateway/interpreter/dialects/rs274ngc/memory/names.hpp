@@ -26,6 +26,9 @@ class NamedParameters {
   /// Like id_of, but never makes one.
   NameId find(std::string_view name) const;
   const std::string& name(NameId id) const { return names_[id]; }
+  std::size_t count() const { return names_.size(); }
+  /// Another number each time that a value, or which ones are in force, may have changed.
+  std::uint64_t changes() const { return changes_; }
 
   /// nullptr: not defined here and now.
   const double* value(NameId id, std::size_t level) const;
@@ -53,6 +56,7 @@ class NamedParameters {
     return is_global(id) ? globals_ : locals_[level];
   }
 
+  std::uint64_t changes_ = 0;
   std::vector<std::string> names_;
   std::unordered_map<std::string, NameId, Hash, std::equal_to<>> ids_;
   Values globals_;

@@ -1,5 +1,6 @@
 #include "gateway/interpreter/dialects/rs274ngc/memory/retained_memory.hpp"
 
+#include <fmt/format.h>
 #include <cstring>
 
 #include "gateway/interpreter/dialects/rs274ngc/interpreter.hpp"
@@ -44,6 +45,27 @@ bool Rs274NgcInterpreter::read_memory(std::vector<double>& values) {
     for_each_parameter(run_.parameters, in_file_, visit);
     for_each_tool_cell(run_.tools, visit);
   });
+  return true;
+}
+
+std::vector<std::string> Rs274NgcInterpreter::live_names() const {
+  std::vector<std::string> names;
+  const NamedParameters& named = run_.names;
+  for (std::size_t id = 0; id < named.count(); ++id)
+    names.push_back(fmt::format("#<{}>", named.name(static_cast<NameId>(id))));
+  return names;
+}
+
+bool Rs274NgcInterpreter::read_live(std::vector<double>& values) {
+  const NamedParameters& named = run_.names;
+  const SeenNames now{named.changes(), run_.state.calls.size(), named.count()};
+  if (names_seen_ == now) return false;
+  names_seen_ = now;
+  values.clear();
+  for (std::size_t id = 0; id < now.count; ++id) {
+    const double* const value = named.value(static_cast<NameId>(id), now.level);
+    values.push_back(value != nullptr ? *value : kVacant);
+  }
   return true;
 }
 
