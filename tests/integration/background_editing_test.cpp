@@ -1,6 +1,8 @@
 // HD-071: a program of the TNC 155 is edited while it runs.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "protocol/base/digest.hpp"
 #include "tests/integration/system.hpp"
 
@@ -67,6 +69,11 @@ class BackgroundEditing : public testing::Test {
     dnc({"run", "resume", id});
     return system.wait_ended(id);
   }
+  std::string setup(const std::string& control) const {
+    const auto path = system.folder() / "setup.toml";
+    std::ofstream(path) << "[control]\n" << control << "\n";
+    return path;
+  }
   System system;
 };
 
@@ -98,6 +105,28 @@ TEST_F(BackgroundEditing, ARunKeepsItsRevisionToItsEndAndTheNextOneTakesTheEdit)
   EXPECT_EQ(next.value("executed", 0u), kBlocks - 1);
   EXPECT_TRUE(next.value("content_verified", false)) << next.dump();
   EXPECT_TRUE(stands_at(70)) << status().dump();
+}
+
+// HD-076, HD-081, HD-082: without a run the screen shows what playback puts into a program, and in
+// which units is what the newest setup says.
+TEST_F(BackgroundEditing, TakesThePositionThatTheScreenOfTheIdleControlShows) {
+  const auto shown = [&] { return status()["coordinates"]["program"]; };
+  ASSERT_TRUE(eventually([&] { return shown().is_object(); })) << status().dump();
+  dnc({"machine", "datum", "mill-1", "X", "40", "--unit", "mm"});
+  EXPECT_TRUE(eventually([&] { return shown()["position"].value("X", 0.0) == 40; }))
+      << status().dump();
+  system.push("15.h",
+              "0 BEGIN PGM 15 MM\r\n1 TOOL CALL 0 Z S500,000\r\n2 STOP M\r\n3 END PGM 15 MM\r\n");
+  dnc({"machine", "playback", "mill-1", "X", "--into", "15.h", "--after", "1"});
+  EXPECT_EQ(system.rest().get("/api/v1/programs/15.h").json().value("revision", 0), 2);
+  EXPECT_EQ(system.rest().get("/api/v1/programs/15.h/content").body,
+            "0 BEGIN PGM 15 MM\r\n1 TOOL CALL 0 Z S500,000\r\n2 X+40,000 R0 F M\r\n3 STOP M\r\n"
+            "4 END PGM 15 MM\r\n");
+  EXPECT_EQ(status()["screen"].value("units", ""), "mm");
+  dnc({"setup", "push", "mill-1", setup("display_units = \"inch\"\nposition_display = \"REF\"")});
+  EXPECT_TRUE(eventually([&] { return status()["screen"].value("units", "") == "inch"; }))
+      << status().dump();
+  EXPECT_EQ(status()["screen"].value("position", ""), "reference");
 }
 
 }  // namespace

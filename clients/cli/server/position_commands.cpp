@@ -2,10 +2,13 @@
 
 #include <fmt/core.h>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "clients/cli/offline/edited_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
+#include "clients/cli/text/terminal.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -15,6 +18,8 @@ struct PositionCommand {
   client::PositionToSet setting;
   std::uint64_t tool = 0;
   std::string axes;
+  EditedText::Place into;             ///< program of the server, or none
+  std::optional<std::int32_t> after;  ///< block of it
 };
 
 int set_position(Context& context, client::Client& client, const PositionCommand& command) {
@@ -34,9 +39,39 @@ int touch_off(Context& context, client::Client& client, const PositionCommand& c
   return set_position(context, client, of_tool);
 }
 
+/// Puts the block into the program that is being edited, as its control would.
+int put_into(Context& context, const PositionCommand& command, const std::string& block) {
+  const EditedText::Place& into = command.into;
+  EditedText original(context, into);
+  if (!original.is_open()) return context.status;
+  if (original.is_protected()) {
+    complain(Error{Errc::Conflict, fmt::format("{} is protected against editing: dnc edit "
+                                               "--unprotect lifts that",
+                                               into.program)});
+    return kExitNo;
+  }
+  using program_editing::BlockChange;
+  const BlockChange change{BlockChange::Kind::Insert, *command.after, *command.after, block};
+  const auto edited = original.edited({&change, 1});
+  if (!edited) return complain(edited.error()), kExitNo;
+  std::string written;
+  if (const int status = original.save(edited->text, written); status != kExitOk) return status;
+  if (context.wants_json) {
+    context.print(json_text({{"block", block}, {"written", written}}));
+    return kExitOk;
+  }
+  for (const auto& [mark, text] : edited->changes)
+    context.print(fmt::format("{}{}\n", mark, printable(text)));
+  context.print(fmt::format("Wrote {}.\n", written));
+  return kExitOk;
+}
+
 int play_back(Context& context, client::Client& client, const PositionCommand& command) {
+  if (command.into.program.empty() == command.after.has_value())
+    return complain(Error{Errc::Syntax, "--into PROGRAM and --after BLOCK belong together"});
   auto answer = client.play_back(command.machine, command.axes);
   if (!answer) return complain(answer.error());
+  if (command.after) return put_into(context, command, answer->block);
   context.print(context.wants_json ? json_text(*answer) : answer->block + "\n");
   return kExitOk;
 }
@@ -102,12 +137,17 @@ void add_position_verbs(Command group, Context& context) {
   playback.add_option("MACHINE", axes->machine, "The machine").required();
   playback.add_option("AXES", axes->axes, "Letters of the axes, in the order of the block")
       .required();
+  playback.add_option("--into", axes->into.program,
+                      "Put the block into this program of the server; it becomes a revision");
+  playback.add_option("--after", axes->after, "With --into: the block that it comes after")
+      .check(in_range(0, 9'999'999));
+  playback.add_option("--comment", axes->into.comment, "Say what changed; kept with the revision");
   add_json_flag(playback, context);
   playback.footer(
       "The actual position key of a TNC: coordinates of the datum in mm and degrees, without feed "
       "and M function. They contain the radius of the\ntool that was used, so its TOOL DEF has R "
       "0.\n\nExample:\n  dnc "
-      "machine playback mill-3 XY");
+      "machine playback mill-3 XY\n  dnc machine playback mill-3 XY --into 15.h --after 4");
   run_at_server(playback, context, axes, play_back);
 }
 
