@@ -229,6 +229,10 @@ struct ErrorCode {
       "NGC0344", "Polar coordinates with x or y, at the origin or outside of g17"};
   static constexpr DiagnosticRow OrientWords{"NGC0345", "R word missing or out of range with m19"};
   static constexpr DiagnosticRow ToolNumber{"NGC0346", "Q word missing or negative with m61"};
+  static constexpr DiagnosticRow TurningWords{"NGC0353",
+                                              "Words missing or out of range with lathe cycle"};
+  static constexpr DiagnosticRow TurningContour{"NGC0354",
+                                                "Contour of a lathe cycle cannot be cut"};
   static constexpr DiagnosticRow ProbeG95{"NGC0352", "Cannot probe with feed per revolution"};
   static constexpr DiagnosticRow UnusedAxis{"NGC0351", "Nothing on the line takes"};
   static constexpr DiagnosticRow NotSupported{"NGC0350", "Not supported by this interpreter"};
@@ -242,5 +246,6 @@ inline constexpr std::string_view kDuplicateSetting = "NGC0903";
 inline constexpr std::string_view kFeedBeforeUnits = "NGC0905";
 inline constexpr std::string_view kLeadChanges = "NGC0906";
 inline constexpr std::string_view kLeadLost = "NGC0907";
+inline constexpr std::string_view kContourWords = "NGC0908";
 
 }  // namespace dripline::interpreter::rs274ngc

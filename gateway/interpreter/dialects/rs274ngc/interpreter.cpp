@@ -9,6 +9,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/execution/splines.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/turning/turning.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
@@ -148,6 +149,7 @@ Result<void> Rs274NgcInterpreter::begin_next_text() {
   state.label_names.clear();
   state.skip = {};
   state.passes = 0;
+  if (state.turning.code != 0) end_recording(run_);
   run_.origin = {};
   run_.block.stage = Stage::Start;
   after_restore();
@@ -197,8 +199,13 @@ bool Rs274NgcInterpreter::execute() {
   if ((is_skip || upper(*at) == 'N') && !read_line_head(run_, at, is_skip)) [[unlikely]]
     return false;
   if (upper(*at) == 'O' && run_.is_linuxcnc()) [[unlikely]]
-    return flow_.execute(at);
+    return execute_oword(at);
   return execute_words(at, is_skip && run_.block_skip);
+}
+
+bool Rs274NgcInterpreter::execute_oword(const char* at) {
+  if (!flow_.execute(at)) return false;
+  return !is_contour_complete(run_.state) || make_turning(run_);
 }
 
 bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {
@@ -208,6 +215,8 @@ bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {
     run_.block.clear();
     return true;
   }
+  if (run_.state.turning.code != 0) [[unlikely]]
+    return record_contour_line(run_);
   run_.block.stage = Stage::Before;
   return finish_words();
 }
@@ -215,6 +224,8 @@ bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {
 bool Rs274NgcInterpreter::finish_words() {
   if (!execute_line(run_)) [[unlikely]]
     return false;
+  if (is_turning_cycle(run_.block.motion)) [[unlikely]]
+    return flow_.call_contour(static_cast<std::int64_t>(run_.block.words['Q']));
   const int stop = run_.block.m(MGroup::Stop);
   return stop < 98 || flow_.execute_fanuc(stop);
 }
@@ -265,6 +276,11 @@ ActiveModes Rs274NgcInterpreter::modes() const {
 
 std::optional<CoordinateFrame> Rs274NgcInterpreter::frame() const {
   return frame_of(run_);
+}
+
+void Rs274NgcInterpreter::before_alarm() {
+  run_.held.drop();
+  if (run_.state.turning.code != 0) end_recording(run_);
 }
 
 void Rs274NgcInterpreter::after_restore() {

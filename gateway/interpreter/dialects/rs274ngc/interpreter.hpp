@@ -51,7 +51,7 @@ class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
   bool is_at_boundary() const { return run_.block.stage == Stage::Start; }
   Result<void> take_answer(const Answer& answer);
   /// A move whose end was never found is not made.
-  void before_alarm() { run_.held.drop(); }
+  void before_alarm();
   void after_restore();
 
   BlockOutcome run_line();
@@ -60,6 +60,7 @@ class Rs274NgcInterpreter final : public BlockInterpreter<Rs274NgcInterpreter>,
   BlockOutcome end_of_mdi();
   bool meet_percent(const char* at, bool& is_end);
   bool execute();
+  bool execute_oword(const char* at);
   bool execute_words(const char* at, bool is_skipped);
   bool finish_words();
   BlockOutcome finish_line();

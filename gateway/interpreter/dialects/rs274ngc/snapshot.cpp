@@ -14,7 +14,7 @@ void visit(Archive& archive, State& state) {
           state.g92, state.tool_length, state.rotation, state.system, state.feed, state.feed_units,
           state.has_lost_lead, state.modes, state.spindle, state.tool, state.overrides, state.flood,
           state.mist, state.cycle, state.compensation, state.spline_i, state.spline_j,
-          state.follows_spline, state.nurbs, state.frames, state.calls, state.labels,
+          state.follows_spline, state.nurbs, state.turning, state.frames, state.calls, state.labels,
           state.label_names, state.skip, state.passes, state.saved);
 }
 
@@ -34,7 +34,7 @@ void visit(Archive& archive, HeldEvents& held) {
 namespace {
 
 constexpr std::string_view kDialect = "rs274ngc";
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 /// Only the rows that the program has written.
 template <class Archive>
@@ -54,6 +54,14 @@ void visit_tools(Archive& archive, const std::vector<Tool>& from_setup, std::vec
   }
 }
 
+/// What makes the passes of a cycle end.
+bool is_plausible(const TurningCycle& cycle) {
+  if (cycle.code == 0) return true;
+  return is_turning_cycle(cycle.code) && cycle.increment > 0 && cycle.retract >= 0 &&
+         cycle.distance >= 0 && cycle.last_distance >= 0 && cycle.passes >= 1 &&
+         cycle.passes <= kMaxFinishingPasses && cycle.moves.size() <= kMaxContourMoves;
+}
+
 /// Values that index tables, and labels that name a name, must be in range whatever the bytes say.
 bool is_plausible(const State& state) {
   const auto knows = [&](Label label) {
@@ -63,7 +71,7 @@ bool is_plausible(const State& state) {
   const auto fits = [](const std::string& name) { return name.size() <= kMaxNameLength; };
   if (state.frames.size() > kMaxBlocks || state.calls.size() > kMaxCalls ||
       state.labels.size() > kMaxLabels || state.label_names.size() > kMaxLabels ||
-      state.nurbs.points.size() > kMaxControlPoints ||
+      state.nurbs.points.size() > kMaxControlPoints || !is_plausible(state.turning) ||
       !std::ranges::all_of(state.label_names, fits)) {
     return false;
   }

@@ -9,6 +9,7 @@
 #include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/language/line_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/turning/contour.hpp"
 
 /// Everything that stays from one line to the next. Coordinates are program coordinates in
 /// millimeters and degrees whatever the units in force; bare numbers (feed, cycle words) stay as
@@ -208,6 +209,7 @@ struct State {
   double spline_i = 0, spline_j = 0;  ///< mm: end direction of the last G5
   bool follows_spline = false;
   Nurbs nurbs;
+  TurningCycle turning;  ///< the lathe cycle whose contour is being recorded
 
   std::vector<BlockFrame> frames;
   std::vector<CallFrame> calls;

@@ -156,6 +156,13 @@ double sweep_of(PlaneVector center, PlaneVector start, PlaneVector end, Turn tur
   return sweep * (180 / Angle::kPi);
 }
 
+bool arc_center(Run& run, PlaneVector start, PlaneVector end, Turn turn, PlaneVector& center) {
+  const PlaneAxes axes = axes_of(run.state.modes.plane);
+  if (!check_words(run, axes, !(start == end))) return false;
+  return run.block.words.has('R') ? center_of_radius(run, start, end, turn, center)
+                                  : center_of_offsets(run, axes, start, end, center);
+}
+
 bool arc_move(Run& run, bool is_clockwise) {
   Target target;
   Feed feed;

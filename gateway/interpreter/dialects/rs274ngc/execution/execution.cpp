@@ -8,6 +8,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/splines.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/comments.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/turning/turning.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
@@ -60,6 +61,7 @@ bool execute_motion_code(Run& run, int code) {
     case 800:
       return true;
     default:
+      if (is_turning_cycle(code)) return begin_turning(run);
       return is_probe(code) ? probe_move(run, code) : execute_cycle(run, code);
   }
 }
@@ -81,7 +83,8 @@ bool execute_motion(Run& run) {
   if (code != 50) state.follows_spline = false;
   if (!execute_motion_code(run, code)) return false;
   // After a spline a line without a code continues the motion mode before it.
-  if (code != 50 && code != 51) state.modes.motion = static_cast<std::int16_t>(run.block.motion);
+  if (code != 50 && code != 51 && !is_turning_cycle(code))
+    state.modes.motion = static_cast<std::int16_t>(run.block.motion);
   return true;
 }
 

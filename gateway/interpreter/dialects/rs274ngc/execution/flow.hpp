@@ -16,6 +16,8 @@ class Flow {
   /// A line with an O word; `at` is on the O. Sets Run::next, and State::skip when lines must be
   /// passed over first. False: see Run::pause.
   bool execute(const char* at);
+  /// The subprogram that has the contour of a lathe cycle; the run continues after the line.
+  bool call_contour(std::int64_t number);
   /// M98 and M99 of the line.
   bool execute_fanuc(int m_code);
   /// One line that is passed over: Run::next is where the run continues.
@@ -34,6 +36,7 @@ class Flow {
   bool end_sub(const OwordHead& head);
   bool leave_sub(const OwordHead& head);
   bool call(const OwordHead& head);
+  bool enter_sub(Label label);
   bool read_arguments(const char* at);
   bool begin_if(const OwordHead& head);
   bool next_branch(const OwordHead& head);

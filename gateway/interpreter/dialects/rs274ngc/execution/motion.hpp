@@ -58,6 +58,8 @@ constexpr char offset_word(Axis axis) {
 
 /// G2 and G3; arcs.cpp.
 bool arc_move(Run& run, bool is_clockwise);
+/// The center of an arc of the plane out of the words of its line, which are checked.
+bool arc_center(Run& run, PlaneVector start, PlaneVector end, Turn turn, PlaneVector& center);
 
 /// Degrees from `start` to `end` about `center` in the direction of `turn`; a full turn when the
 /// two are as good as the same. Pure.

@@ -106,20 +106,29 @@ bool Flow::read_arguments(const char* at) {
 }
 
 bool Flow::call(const OwordHead& head) {
-  if (!read_arguments(head.after)) return false;
-  const KnownLabel* known = find_label(Label{}, head.label);
+  return read_arguments(head.after) && enter_sub(head.label);
+}
+
+bool Flow::call_contour(std::int64_t number) {
+  argument_count_ = 0;
+  arguments_.fill(0);
+  return enter_sub(Label{number});
+}
+
+bool Flow::enter_sub(Label label) {
+  const KnownLabel* known = find_label(Label{}, label);
   if (known == nullptr || !known->is_subprogram) {
-    if (!push_call(run_.next, head.label, false, 1)) return false;
+    if (!push_call(run_.next, label, false, 1)) return false;
     std::copy(arguments_.begin(), arguments_.end(), run_.parameters.begin() + 1);
-    run_.state.skip = {SkipFor::SubFile, head.label, run_.here};
+    run_.state.skip = {SkipFor::SubFile, label, run_.here};
     return true;
   }
   const TextPlace line = known->place;
   // The line after `sub` was met when the sub was passed over.
-  if (!push_call(line, head.label, false, 1)) return false;
+  if (!push_call(line, label, false, 1)) return false;
   std::copy(arguments_.begin(), arguments_.end(), run_.parameters.begin() + 1);
   run_.next = line;
-  run_.state.skip = {SkipFor::FileSub, head.label, line};
+  run_.state.skip = {SkipFor::FileSub, label, line};
   const auto entry = places_.find(
       TextPlace{line.program, line.offset, static_cast<std::uint64_t>(SkipFor::FileSub)});
   if (entry != places_.end()) land(entry->second);

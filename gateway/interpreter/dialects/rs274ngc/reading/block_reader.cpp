@@ -55,6 +55,13 @@ bool check_value(Run& run, char letter, double& value, std::uint32_t column) {
   return true;
 }
 
+/// In the contour of a lathe cycle A, C, U and W are none of the machine's axes.
+AddressSet axes_or_corners(const Run& run) {
+  if (run.state.turning.code == 0) [[likely]]
+    return run.options.axes;
+  return run.options.axes | set_of("ACUW");
+}
+
 bool add_word(Run& run, char letter, const char* start, const char*& at) {
   Words& words = run.block.words;
   if (words.has(letter)) [[unlikely]] {
@@ -65,7 +72,7 @@ bool add_word(Run& run, char letter, const char* start, const char*& at) {
   constexpr AddressSet kChecked = set_of("DFHLPQST");
   if ((set_of(letter) & kChecked) != 0) {
     if (!check_value(run, letter, value, run.column(start))) return false;
-  } else if ((set_of(letter) & kAxisWords & ~run.options.axes) != 0) [[unlikely]] {
+  } else if ((set_of(letter) & kAxisWords & ~axes_or_corners(run)) != 0) [[unlikely]] {
     if (run.options.ignores_missing_axes) return true;
     return run.fail(ErrorCode::NoSuchAxis, run.column(start), fmt::format("{}", letter));
   }

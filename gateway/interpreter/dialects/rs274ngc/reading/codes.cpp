@@ -54,6 +54,8 @@ constexpr Table<GRow> kG = [] {
   add(Motion, kLater, "KI", 331);
   add(Motion, kLater, "RLQD", 730);
   add(Motion, kLater, "RLPF", 740);
+  add(Motion, kLater, "QDEP", 700);
+  add(Motion, kLater, "QDIR", 710, 711, 712, 720, 721, 722);
   add(Motion, kLater, "PIJKRQHEL", 760);
   add(OneShot, kBoth, "P", 40);
   add(OneShot, kBoth, "", 530, 921, 922, 923);

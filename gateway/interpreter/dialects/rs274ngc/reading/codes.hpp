@@ -65,6 +65,10 @@ AddressSet words_of(const GRow& row, Profile profile);
 constexpr bool is_cycle(int tenths) {
   return tenths == 730 || tenths == 740 || (tenths >= 810 && tenths <= 890);
 }
+/// Lathe cycles whose contour is a subprogram.
+constexpr bool is_turning_cycle(int tenths) {
+  return tenths >= 700 && tenths <= 722;
+}
 constexpr bool is_probe(int tenths) {
   return tenths >= 382 && tenths <= 385;
 }
