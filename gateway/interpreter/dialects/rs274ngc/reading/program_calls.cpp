@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "gateway/interpreter/core/language/number.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/codes.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
@@ -48,6 +49,23 @@ std::optional<std::string> read_written_label(const char*& at) {
   }
   label.erase(0, std::min(label.find_first_not_of('0'), label.size() - 1));
   return label;
+}
+
+/// G70 to G72 call the contour that Q names; without a name a run computes it.
+struct WordsOfCycle {
+  bool is_turning = false;
+  std::string contour;
+
+  void read(char letter, bool is_written, double value) {
+    if (!is_written) return;
+    if (letter == 'G')
+      is_turning |= is_turning_cycle(static_cast<int>(std::lround(std::fmin(value, 1e3) * 10)));
+    if (letter == 'Q') contour = fmt::format("{}", static_cast<std::int64_t>(std::round(value)));
+  }
+};
+
+bool is_read(char letter) {
+  return letter == 'M' || letter == 'P' || letter == 'G' || letter == 'Q';
 }
 
 class TextCalls {
@@ -94,25 +112,28 @@ class TextCalls {
     bool is_call = false;
     std::optional<double> program;
     bool is_computed = false;
+    WordsOfCycle cycle;
     while (!is_end_of_line(*at) && *at != ';') {
       if (*at == '(') {
         while (*at != ')' && !is_end_of_line(*at)) ++at;
       } else if (*at == '[') {
         at = skip_brackets(at);
         continue;
-      } else if (const char letter = upper(*at); letter == 'M' || letter == 'P') {
+      } else if (const char letter = upper(*at); is_read(letter)) {
         const char* value = skip_blanks(at + 1);
         NumberText number;
         const char* after = read_number<NumberRules{.skip_blanks = true}>(value, nullptr, number);
         const bool is_written = number.fault == NumberFault::None;
         if (is_written) at = after;
         is_call |= letter == 'M' && is_written && number.value == 98;
+        if (letter == 'G' || letter == 'Q') cycle.read(letter, is_written, number.value);
         if (letter == 'P' && is_written) program = number.value;
         if (letter == 'P' && !is_written) is_computed = true;
         if (is_written) continue;
       }
       ++at;
     }
+    if (cycle.is_turning) add({{.name = cycle.contour, .earlier = {}, .line = line}});
     if (!is_call || (!program && !is_computed)) return;
     std::string name;
     if (!is_computed) name = fmt::format("{}", static_cast<std::int64_t>(std::round(*program)));

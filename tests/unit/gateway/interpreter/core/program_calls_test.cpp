@@ -113,6 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
         CallCase{"a_sub_after_its_call_may_be_a_file", "rs274ngc",
                  "o100 call\nM2\no100 sub\no100 endsub\n", "100:1~"},
         CallCase{"m98", "rs274ngc", "M98 P200 L3\nM98 P300\nM2\no300\nM99\n", "200:1"},
+        CallCase{"lathe_cycles", "rs274ngc",
+                 "G71.1 Q200 X5\nG70 X1 Q[#1]\nG83 X1 Q3\nG7.1 Q4\nM2\n", "200:1 ?:2"},
         CallCase{"computed", "rs274ngc", "o[#1] call\nM98 P#2\n", "?:1"},
         CallCase{"not_in_comments", "rs274ngc", "(o1 call)\n; M98 P2\nG1 X1 (M98) P3\n", ""},
         CallCase{"other_o_words", "rs274ngc", "o1 while [1]\no1 endwhile\no2 if [1]\no2 endif\n",
