@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -40,13 +41,34 @@ std::string read_file(const fs::path& path) {
 
 /// The README's list: with an arc after it the peer makes a move that its corners have eaten up,
 /// backwards or nearly all around; we refuse it.
+/// Of lathe cycles it makes moves through the contour; we refuse them before the first, but for the
+/// one to the start.
 bool is_listed(const Behavior& ours, const Behavior& peer) {
-  if (!ours.complaint.starts_with("NGC0282") || ours.moves.size() >= peer.moves.size())
-    return false;
+  const bool is_refused =
+      ours.complaint.starts_with("NGC0282") || ours.complaint.starts_with("NGC0354");
+  if (!is_refused || ours.moves.size() > peer.moves.size()) return false;
   Behavior beginning = peer;
   beginning.moves.resize(ours.moves.size());
   beginning.is_accepted = false;
   return difference(ours, beginning, kTolerance).empty();
+}
+
+/// The README's list: of arcs in a lathe cycle that are shorter than a thousandth the peer makes
+/// some, and we others.
+bool is_tiny_arc_apart(const Behavior& ours, const Behavior& peer) {
+  constexpr double kTiny = 1e-3 * 25.4;
+  const auto without = [](const Behavior& behavior) {
+    Behavior kept = behavior;
+    kept.moves.clear();
+    for (const Move& move : behavior.moves) {
+      const bool is_tiny = !kept.moves.empty() && move.kind == Move::Kind::Arc && move.plane == 1 &&
+                           std::hypot(move.to[0] - kept.moves.back().to[0],
+                                      move.to[2] - kept.moves.back().to[2]) <= kTiny;
+      if (!is_tiny) kept.moves.push_back(move);
+    }
+    return kept;
+  };
+  return difference(without(ours), without(peer), kTiny).empty();
 }
 
 struct Difference {
@@ -61,6 +83,8 @@ class Comparison {
   Comparison() { std::ofstream(folder_.path() / "tool.tbl") << tool_table(); }
 
   std::size_t listed() const { return listed_; }
+  /// Programs that the peer does not end.
+  std::size_t hung() const { return hung_; }
 
   /// `next` gives the programs one after the other, an empty name at the end.
   template <class Next>
@@ -89,7 +113,11 @@ class Comparison {
     const std::string what = difference(ours, peer, kTolerance);
     if (what.empty()) return;
     const std::lock_guard lock(mutex_);
-    if (is_listed(ours, peer)) {
+    if (peer.is_hung) {
+      ++hung_;
+      return;
+    }
+    if (is_listed(ours, peer) || is_tiny_arc_apart(ours, peer)) {
       ++listed_;
       return;
     }
@@ -100,6 +128,7 @@ class Comparison {
   std::mutex mutex_;
   std::vector<Difference> differences_;
   std::size_t listed_ = 0;
+  std::size_t hung_ = 0;
 };
 
 void report(const std::vector<Difference>& differences) {
@@ -123,13 +152,17 @@ TEST(Rs274NgcPeer, DoesTheSameWithGeneratedPrograms) {
     if (number >= first + count) return std::nullopt;
     return std::pair(fmt::format("{:06}", number), make_program(number));
   }));
-  EXPECT_LE(comparison.listed(), count / 200) << "more than a rare corner differs";
+  fmt::print("{} listed, {} hung\n", comparison.listed(), comparison.hung());
+  EXPECT_LE(comparison.listed(), count / 100) << "more than a rare corner differs";
+  EXPECT_LE(comparison.hung(), count / 200) << "of more than a rare one nothing is known";
 }
 
 TEST(Rs274NgcPeer, DoesTheSameWithOurPrograms) {
   if (!has_peer()) GTEST_SKIP() << "rs274 (Debian's linuxcnc-uspace) is not installed";
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator("tests/differential/rs274ngc/programs")) {
+  const char* folder = std::getenv("DRIPLINE_COMPARE");
+  const fs::path own = "tests/differential/rs274ngc/programs";
+  for (const auto& entry : fs::directory_iterator(folder != nullptr ? fs::path(folder) : own)) {
     if (entry.path().extension() == ".ngc") files.push_back(entry.path());
   }
   std::atomic<std::size_t> next{0};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace dripline::differential {
 
@@ -56,6 +57,11 @@ class Maker {
   void cycles();
   void polar_cycles();
 
+  // Lathe cycles: turning_parts.cpp
+  void turning();
+  std::vector<std::string> contour(Ticks along, Ticks depth);
+  std::string contour_arc(Ticks run, Ticks rise, Ticks& along, Ticks& depth);
+
   // O words and expressions: language_parts.cpp
   std::string label();
   void loop();
@@ -82,6 +88,10 @@ class Maker {
   std::string later_;  ///< after the end of the main program
   std::string settings_;
   Ticks x_ = 0, y_ = 0, z_ = 0;
+  struct {
+    bool is_facing = false;
+    Ticks along_sign = 1, depth_sign = 1;
+  } turning_;  ///< how the contour of a lathe cycle lies
   int label_ = 100;
   bool has_break_ = false;
 };

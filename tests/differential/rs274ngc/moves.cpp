@@ -16,6 +16,20 @@ bool is_near(const std::array<double, 6>& a, const std::array<double, 6>& b, dou
   return true;
 }
 
+/// Along one and the same axis, and in its direction.
+bool continues(const std::array<double, 6>& before, const std::array<double, 6>& at,
+               const std::array<double, 6>& to) {
+  int axes = 0;
+  bool is_onward = true;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double first = at[i] - before[i], second = to[i] - at[i];
+    if (std::fabs(first) <= kStanding && std::fabs(second) <= kStanding) continue;
+    ++axes;
+    is_onward &= first * second > 0;
+  }
+  return axes == 1 && is_onward;
+}
+
 bool is_same(const Move& a, const Move& b, double tolerance) {
   if (a.kind != b.kind || !is_near(a.to, b.to, tolerance)) return false;
   if (a.kind != Move::Kind::Arc) return true;
@@ -39,9 +53,18 @@ std::string text_of(const Move& move) {
 
 void drop_standing_moves(Behavior& behavior) {
   std::vector<Move> kept;
-  std::array<double, 6> at{};
+  std::array<double, 6> before{}, at{};
   for (const Move& move : behavior.moves) {
-    if (move.kind == Move::Kind::Arc || !is_near(at, move.to, kStanding)) kept.push_back(move);
+    const bool is_arc = move.kind == Move::Kind::Arc;
+    if (is_arc || !is_near(at, move.to, kStanding)) {
+      const bool is_after_feed = !kept.empty() && kept.back().kind == Move::Kind::Feed;
+      if (is_after_feed && move.kind == Move::Kind::Feed && continues(before, at, move.to)) {
+        kept.back() = move;
+      } else {
+        kept.push_back(move);
+        before = at;
+      }
+    }
     at = move.to;
   }
   behavior.moves = std::move(kept);

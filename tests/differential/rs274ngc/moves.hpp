@@ -19,11 +19,13 @@ std::string text_of(const Move& move);
 /// What a program did, and whether it was taken to its end.
 struct Behavior {
   bool is_accepted = false;
+  bool is_hung = false;  ///< did not end in time
   std::string complaint;
   std::vector<Move> moves;
 };
 
-/// Drops moves of no length: one side shows them, the other does not.
+/// Drops moves of no length, and joins feeds along one axis: one side makes two of them, the other
+/// one.
 void drop_standing_moves(Behavior& behavior);
 
 /// Empty when both did the same within `tolerance` millimeters; else what differs first.

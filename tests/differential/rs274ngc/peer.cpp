@@ -16,6 +16,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPeer = "/usr/bin/rs274";
+/// Seconds; some contours of lathe cycles keep it busy for ever.
+constexpr int kTimeLimit = 20;
+constexpr int kTimedOut = 124;  ///< exit status of `timeout`
+constexpr std::size_t kMaxMoves = 200'000;
 constexpr double kInch = 25.4;
 
 /// Numbers of a call's arguments, in order.
@@ -129,9 +133,9 @@ std::string tool_table() {
 /// It keeps its tools in a file in HOME: each folder has its own.
 Behavior run_peer(const fs::path& program, const fs::path& tools) {
   const std::string folder = program.parent_path().string();
-  const std::string command =
-      fmt::format("cd '{0}' && HOME='{0}' LD_PRELOAD='{1}' '{2}' -g -t '{3}' '{4}' 2>complaint",
-                  folder, FULL_PRECISION, kPeer, tools.string(), program.string());
+  const std::string command = fmt::format(
+      "cd '{0}' && HOME='{0}' LD_PRELOAD='{1}' timeout {5} '{2}' -g -t '{3}' '{4}' 2>complaint",
+      folder, FULL_PRECISION, kPeer, tools.string(), program.string(), kTimeLimit);
   Behavior behavior;
   CallReader calls;
   FILE* output = popen(command.c_str(), "r");
@@ -140,10 +144,11 @@ Behavior run_peer(const fs::path& program, const fs::path& tools) {
   while (fgets(line.data(), line.size(), output) != nullptr) {
     std::string_view text(line.data());
     while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
-    calls.read(text);
+    if (calls.moves.size() < kMaxMoves) calls.read(text);
   }
   const int status = pclose(output);
   behavior.is_accepted = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  behavior.is_hung = WIFEXITED(status) && WEXITSTATUS(status) == kTimedOut;
   behavior.moves = std::move(calls.moves);
   std::ifstream complaint(program.parent_path() / "complaint");
   while (std::getline(complaint, behavior.complaint) && behavior.complaint == "executing") {

@@ -172,7 +172,7 @@ void Maker::known_position() {
 }
 
 void Maker::part() {
-  switch (below(24)) {
+  switch (below(25)) {
     case 0:
     case 1:
       return lines(2 + below(4));
@@ -212,6 +212,8 @@ void Maker::part() {
     case 21:
     case 22:
       return later_subprogram();
+    case 23:
+      return turning();
     default:
       return small_things();
   }
