@@ -127,6 +127,34 @@ std::string spindle_text(const Action& action) {
   return text + fmt::format(", {:g} rpm", action.numbers[0]);
 }
 
+double amount_of(const Feed& feed) {
+  return feed.per() == Feed::Per::Move ? feed.moves_per_minute() : feed.length().mm();
+}
+
+/// A change of the amount alone leaves the cut what it was; one from or to none does not.
+Differences feed_differences(const Action& a, const Action& b) {
+  if (a.is_in_step != b.is_in_step) return Difference::Pitch;
+  if (a.is_in_step && !(is_equal(a.feed, b.feed) && is_equal(a.speed, b.speed)))
+    return Difference::Pitch;
+  if (is_equal(a.feed, b.feed)) return {};
+  const bool is_amount =
+      a.feed.per() == b.feed.per() && amount_of(a.feed) > 0 && amount_of(b.feed) > 0;
+  return is_amount ? Difference::Feed : Difference::FeedMode;
+}
+
+Differences spindle_differences(const Action& a, const Action& b) {
+  const auto is_same = [&](std::size_t i) { return is_equal(a.numbers[i], b.numbers[i]); };
+  if (a.code == b.code && is_same(0) && is_same(1) && is_same(2)) return {};
+  const bool is_turning = interpreter::is_turning(static_cast<interpreter::SpindleState>(a.code));
+  const auto is_by_surface = [](const Action& action) {
+    return action.numbers[1] != Action::kNoNumber;
+  };
+  const std::size_t amount = is_by_surface(a) ? 1 : 0;
+  const bool is_amount = is_turning && a.code == b.code && is_by_surface(a) == is_by_surface(b) &&
+                         is_same(2) && a.numbers[amount] > 0 && b.numbers[amount] > 0;
+  return is_amount ? Difference::Speed : Difference::Spindle;
+}
+
 /// Of an axis that moves: one that stays does not take in a length that has come into force.
 bool has_other_length(const Action& a, const Action& b, double tolerance) {
   for (std::size_t i = 0; i < a.lengths.size(); ++i) {
@@ -141,8 +169,8 @@ bool has_other_length(const Action& a, const Action& b, double tolerance) {
 
 std::string_view word_of(Difference difference) {
   constexpr std::array<std::string_view, kDifferenceCount> kWords{
-      "path",     "feed",       "speed", "tool",   "offset", "dwell", "coolant",
-      "function", "exact_stop", "stop",  "output", "order",  "alarm"};
+      "path",  "pitch",   "feed",     "feed_mode",  "speed", "spindle", "tool",  "offset",
+      "dwell", "coolant", "function", "exact_stop", "stop",  "output",  "order", "alarm"};
   return kWords[static_cast<std::size_t>(difference)];
 }
 
@@ -159,7 +187,8 @@ double path_distance(const Action& a, const Action& b) {
 
 bool is_alike(const Action& a, const Action& b, const Agreement& agreement) {
   if (a.kind != b.kind) return false;
-  Differences allowed = Differences(Difference::Feed) | Difference::ExactStop;
+  Differences allowed = Differences(Difference::Feed) | Difference::FeedMode | Difference::Pitch |
+                        Difference::ExactStop;
   if (is_move(a.kind)) allowed |= Difference::Offset;
   return differences(a, b, agreement).is_within(allowed);
 }
@@ -172,11 +201,12 @@ Differences differences(const Action& a, const Action& b, const Agreement& agree
         std::ranges::equal(a.numbers, b.numbers, [](double x, double y) { return is_equal(x, y); });
     if (a.code != b.code || !is_lead_same || !(path_distance(a, b) <= agreement.tolerance))
       found |= Difference::Path;
-    if (!is_equal(a.feed, b.feed)) found |= Difference::Feed;
+    found |= feed_differences(a, b);
     if (a.rests != b.rests && !agreement.across_controls) found |= Difference::ExactStop;
     if (has_other_length(a, b, agreement.tolerance)) found |= Difference::Offset;
     return found;
   }
+  if (a.kind == ActionKind::Spindle) return spindle_differences(a, b);
   const bool is_end = a.kind == ActionKind::End;
   const bool are_numbers_equal =
       std::ranges::equal(a.numbers, b.numbers, [](double x, double y) { return is_equal(x, y); });
@@ -192,7 +222,7 @@ Difference difference_of(ActionKind kind) {
     case ActionKind::Dwell:
       return Difference::Dwell;
     case ActionKind::Spindle:
-      return Difference::Speed;
+      return Difference::Spindle;
     case ActionKind::Coolant:
       return Difference::Coolant;
     case ActionKind::Tool:

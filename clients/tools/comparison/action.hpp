@@ -56,7 +56,11 @@ struct Action {
   std::int64_t code = 0;            ///< a state, a tool's number, an M function ...
   std::optional<int> offset;        ///< tool changes: the offset's number
   std::array<double, 3> numbers{};  ///< what else has a number; kNoNumber: absent
-  std::string text;                 ///< outputs, messages, alarms
+  /// Moves whose feed and speed make a thread: threads, feeds without override, as a tap's, and a
+  /// feed out after the spindle was reversed.
+  bool is_in_step = false;
+  double speed = 0;  ///< of the spindle in force; moves in step with it
+  std::string text;  ///< outputs, messages, alarms
 
   static constexpr double kNoNumber = -1e300;
 };
@@ -64,8 +68,11 @@ struct Action {
 /// What differs between two actions, or between two programs.
 enum class Difference : std::uint8_t {
   Path,
-  Feed,
-  Speed,
+  Pitch,     ///< feed or speed of a move in step with the spindle
+  Feed,      ///< its amount
+  FeedMode,  ///< per minute or revolution; or from or to none
+  Speed,     ///< its amount
+  Spindle,   ///< on, off, its sense, constant surface speed, its limit; or from or to none
   Tool,
   Offset,
   Dwell,
@@ -77,7 +84,7 @@ enum class Difference : std::uint8_t {
   Order,
   Alarm,
 };
-inline constexpr std::size_t kDifferenceCount = 13;
+inline constexpr std::size_t kDifferenceCount = 16;
 std::string_view word_of(Difference difference);
 
 /// A set of differences.

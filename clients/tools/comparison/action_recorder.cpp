@@ -44,8 +44,26 @@ Action& ActionRecorder::move(ActionKind kind, const interpreter::Origin& origin,
   action.from = at_;
   action.to = to;
   if (interpreter_ != nullptr) action.lengths = interpreter_->modes().lengths();
+  is_cutting_ = kind != ActionKind::Rapid;
+  is_reversed_ = is_reversed_ && is_cutting_;
+  const bool is_in_step = is_feed_fixed_ || is_reversed_ || kind == ActionKind::Thread;
+  if (is_cutting_ && is_in_step) set_in_step(action);
   at_ = to;
   return action;
+}
+
+void ActionRecorder::set_in_step(Action& move) const {
+  move.is_in_step = true;
+  if (!is_spindle_known_) return;
+  const bool is_by_surface = spindle_.numbers[1] != Action::kNoNumber;
+  move.speed = spindle_.numbers[is_by_surface ? 1 : 0];
+}
+
+/// A tap comes out of its hole with the spindle reversed, whatever wrote that: a cycle or blocks.
+void ActionRecorder::note_turn(interpreter::SpindleState state) {
+  if (!interpreter::is_turning(state)) return;
+  is_reversed_ = is_reversed_ || (is_cutting_ && turn_ && *turn_ != state);
+  turn_ = state;
 }
 
 void ActionRecorder::on_rapid(const interpreter::Rapid& event) {
@@ -114,6 +132,7 @@ bool ActionRecorder::is_repeated(const Action& state, Action& last, bool& is_kno
 }
 
 void ActionRecorder::on_spindle(const interpreter::Spindle& event) {
+  note_turn(event.state);
   Action& action = push(ActionKind::Spindle, event.origin);
   action.code = static_cast<int>(event.state);
   action.numbers = {event.surface_speed ? 0 : event.revolutions_per_minute,
@@ -188,6 +207,7 @@ void ActionRecorder::on_stop(const interpreter::Stop& event) {
 }
 
 void ActionRecorder::on_override_inhibit(const interpreter::OverrideInhibit& event) {
+  is_feed_fixed_ = event.feed_override;
   if (across_controls_) return;
   push(ActionKind::Inhibit, event.origin).code =
       (event.feed_override ? 1 : 0) | (event.spindle_override ? 2 : 0) |

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -72,6 +73,8 @@ class ActionRecorder final : public interpreter::EventSink {
   Action& push(ActionKind kind, const interpreter::Origin& origin);
   Action& move(ActionKind kind, const interpreter::Origin& origin, const interpreter::Position& to);
   void set_arc(Action& action, const interpreter::Arc& arc);
+  void set_in_step(Action& move) const;
+  void note_turn(interpreter::SpindleState state);
   bool is_repeated(const Action& state, Action& last, bool& is_known);
 
   ActionQueue& queue_;
@@ -83,6 +86,10 @@ class ActionRecorder final : public interpreter::EventSink {
   std::uint64_t alarm_offset_ = 0;
   Action spindle_, coolant_;  ///< in force
   bool is_spindle_known_ = false, is_coolant_known_ = false;
+  bool is_feed_fixed_ = false;  ///< the operator's override is inhibited: a thread is cut
+  std::optional<interpreter::SpindleState> turn_;  ///< the last sense it had
+  bool is_cutting_ = false;                        ///< the last move was no rapid
+  bool is_reversed_ = false;                       ///< since the last rapid, after a cut
 };
 
 }  // namespace dripline::comparison

@@ -219,9 +219,15 @@ bool is_work_offset(const Token& token) {
          std::ranges::find(kCodes, token.value.substr(0, 2)) != kCodes.end();
 }
 
+bool is_zero(std::string_view number) {
+  return number.find_first_not_of("+-.0") == std::string_view::npos;
+}
+
 TextChange change_of_token(const Token& token) {
-  if (token.letters == "F" || token.letters == "S")
-    return is_plain_number(token.value) ? TextChange::FeedAndSpeed : TextChange::Other;
+  if (token.letters == "F" || token.letters == "S") {
+    const bool is_amount = is_plain_number(token.value) && !is_zero(token.value);
+    return is_amount ? TextChange::FeedAndSpeed : TextChange::Other;
+  }
   if (token.letters == "D" || token.letters == "H")
     return is_plain_number(token.value) ? TextChange::Offsets : TextChange::Other;
   return is_work_offset(token) ? TextChange::Offsets : TextChange::Other;

@@ -223,6 +223,10 @@ EditClass classify(const TextResult& text, const MotionResult* motion) {
   if (motion->is_same && text.change == TextChange::None) return EditClass::Comment;
   const Differences found = motion->differences;
   constexpr Differences kFeeds = Differences(Difference::Feed) | Difference::Speed;
+  // Whatever else it changes: the spindle of a cut, or what its feed means.
+  if (found.has(Difference::Pitch)) return EditClass::Geometry;
+  const bool is_other = found.has(Difference::Spindle) || found.has(Difference::FeedMode);
+  if (is_other) return found.has(Difference::Path) ? EditClass::Geometry : EditClass::Other;
   if (motion->conditions.empty()) {
     // With other values in the tables of offsets it would be another motion.
     if (motion->is_same && text.change != TextChange::Offsets) return EditClass::SameMotion;
@@ -230,9 +234,8 @@ EditClass classify(const TextResult& text, const MotionResult* motion) {
     if (text.change == TextChange::Offsets || found.is_within(kFeeds | Difference::Offset))
       return EditClass::Offsets;
   } else {
-    // Another run may take other branches: then the text has to be about no more than that.
-    if (text.change == TextChange::FeedAndSpeed && found.is_within(kFeeds))
-      return EditClass::FeedAndSpeed;
+    // Another run may take other branches: then the text has to be about no more than that. Of an F
+    // or S word there it is not known whether it is a pitch, or of a spindle that is to turn.
     if (text.change == TextChange::Offsets) return EditClass::Offsets;
   }
   return found.has(Difference::Path) ? EditClass::Geometry : EditClass::Other;

@@ -111,6 +111,30 @@ TEST_F(ImportsTest, ThePolicyAcceptsItsClassesAndLeavesTheOthers) {
   EXPECT_EQ(newest(), 3u);
 }
 
+/// Not what a shop means by "feed and speed": the spindle of a cut, and the pitch of a tap.
+TEST_F(ImportsTest, TheSpindleAndAPitchWaitForAPerson) {
+  const std::string cut = "O1\nG21 G90 G94\nS500 M3\nG0 Z5.\nG1 Z-1. F100.\nG0 Z5.\nM5\nM30\n";
+  const std::string tap = "O1\nG21 G90 G94\nS500 M3\nG0 Z5.\nG84 Z-9. R2. F500.\nG80\nM5\nM30\n";
+  set_up_machine();
+  start("[imports]\naccept_at_once = [\"comment\", \"feed_and_speed\"]");
+  imports_->begin();
+  const auto class_of = [&](const std::string& base, const std::string& from,
+                            const std::string& to) {
+    push("O1", base, "fanuc");
+    std::string edited = base;
+    const auto held = receive(edited.replace(edited.find(from), from.size(), to));
+    const auto waits = wait(held.number);
+    EXPECT_EQ(waits.state, ImportState::Pending) << to;
+    return waits.compared->edit;
+  };
+  EXPECT_EQ(class_of(cut, "M3", "M4"), "other");
+  EXPECT_EQ(class_of(cut, "G1 Z", "M5\nG1 Z"), "other");
+  EXPECT_EQ(class_of(cut, "S500", "S0"), "other");
+  EXPECT_EQ(class_of(cut, "G94", "G95"), "other");
+  EXPECT_EQ(class_of(tap, "S500", "S600"), "geometry");
+  EXPECT_EQ(class_of(tap, "F500.", "F450."), "geometry");
+}
+
 TEST_F(ImportsTest, WhatCannotBeComparedWaits) {
   start("[imports]\naccept_at_once = [\"comment\", \"same_motion\"]");
   imports_->begin();

@@ -148,7 +148,7 @@ export const programs: typeof Shape = {
     editClass: 'Die Änderung betrifft',
     classes: { none: 'nichts', comment: 'Kommentare', same_motion: 'den Text, nicht die Bewegung', feed_and_speed: 'Vorschübe und Drehzahlen', offsets: 'Verschiebungen und Korrekturen', geometry: 'die Geometrie', other: 'mehr, als daran zu erkennen ist' },
     differences: {
-      path: 'Bahn', feed: 'Vorschub', speed: 'Drehzahl', tool: 'Werkzeug', offset: 'Korrektur', dwell: 'Verweilzeit', coolant: 'Kühlmittel', function: 'M-Funktion', exact_stop: 'Genauhalt', stop: 'Halt',
+      path: 'Bahn', pitch: 'Gewindesteigung', feed: 'Vorschub', feed_mode: 'Vorschubart', speed: 'Drehzahl', spindle: 'Spindel', tool: 'Werkzeug', offset: 'Korrektur', dwell: 'Verweilzeit', coolant: 'Kühlmittel', function: 'M-Funktion', exact_stop: 'Genauhalt', stop: 'Halt',
       output: 'Ausgabe', order: 'Reihenfolge', alarm: 'Alarm',
     },
     apart: (distance) => `${distance} mm auseinander`,

@@ -146,7 +146,7 @@ export const programs = {
     editClass: 'The change is about',
     classes: { none: 'nothing', comment: 'comments', same_motion: 'text, not motion', feed_and_speed: 'feeds and speeds', offsets: 'offsets', geometry: 'geometry', other: 'more than is known from it' },
     differences: {
-      path: 'path', feed: 'feed', speed: 'spindle speed', tool: 'tool', offset: 'offset', dwell: 'dwell', coolant: 'coolant', function: 'M function', exact_stop: 'exact stop', stop: 'stop',
+      path: 'path', pitch: 'pitch of a thread', feed: 'feed', feed_mode: 'kind of feed', speed: 'spindle speed', spindle: 'spindle', tool: 'tool', offset: 'offset', dwell: 'dwell', coolant: 'coolant', function: 'M function', exact_stop: 'exact stop', stop: 'stop',
       output: 'output', order: 'order', alarm: 'alarm',
     },
     apart: (distance: string) => `${distance} mm apart`,

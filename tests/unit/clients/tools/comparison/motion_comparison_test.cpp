@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
     , MotionDifference,
     testing::Values(
         OneChange{"feed", "F100", "F120", "feed"}, OneChange{"speed", "S1000", "S900", "speed"},
-        OneChange{"spindle", "M3", "M4", "speed"}, OneChange{"tool", "M5", "T2 M6\nM5", "tool"},
+        OneChange{"spindle", "M3", "M4", "spindle"}, OneChange{"tool", "M5", "T2 M6\nM5", "tool"},
         OneChange{"coolant", "M5", "M8\nM5", "coolant"},
         OneChange{"dwell", "M5", "G4 X1.\nM5", "dwell"}, OneChange{"stop", "M5", "M0\nM5", "stop"},
         OneChange{"function", "M5", "M77\nM5", "function"},
