@@ -72,6 +72,7 @@ struct Run {
   /// unknown.
   std::optional<std::string> gateway_setup = {};
   std::optional<RunStatistics> statistics = {};  ///< absent: not ended, cut off, an older gateway
+  std::uint64_t number = 0;  ///< in the order in which runs are stored; 0: it is not yet
   bool is_test = false;  ///< ordered as a test run, which moves nothing; false before version 23
 };
 

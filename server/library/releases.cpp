@@ -153,9 +153,9 @@ Result<storage::Revision> Releases::wanted(const Wish& wish) {
   return parts_.store.programs.revision(wish.program, found->number);
 }
 
-/// The decision that released it, for a run that began at `moment`. All decisions about it must be
-/// this server's.
-Result<storage::Decision> Releases::verify(const storage::Revision& revision, UtcTime moment) {
+/// The decision that released it. All decisions about it must be this server's. Anew: none
+/// withdrew it, whatever the time of that is.
+Result<storage::Decision> Releases::verify(const storage::Revision& revision, Asked asked) {
   const auto decisions = parts_.store.releases.decisions(revision.program, revision.number);
   if (!decisions) return fail(decisions.error());
   for (const auto& decision : *decisions) {
@@ -179,7 +179,7 @@ Result<storage::Decision> Releases::verify(const storage::Revision& revision, Ut
                 "changed",
                 revision.program, revision.number);
   }
-  if (withdrawal != decisions->end() && withdrawal->time <= moment) {
+  if (withdrawal != decisions->end() && asked == Asked::Anew) {
     return fail(Errc::Corrupt,
                 "program {} revision {} is released, but decision {} withdrew it: the database was "
                 "changed",
@@ -223,7 +223,7 @@ Result<Releases::Admission> Releases::admit_released(storage::Revision revision)
   const bool has_pins = std::ranges::any_of(
       *decisions, [](const auto& decision) { return decision.closure.has_value(); });
   if (!policy_.runs_released_only && !has_pins) return Admission{std::move(revision)};
-  const auto approval = verify(revision, UtcTime::max());
+  const auto approval = verify(revision, Asked::Anew);
   if (!approval) return fail(approval.error());
   if (auto good = check_pins(*approval); !good) return fail(good.error());
   const auto allowed_as = policy_.runs_released_only ? RunAllowance::Released : RunAllowance::Open;
@@ -237,7 +237,8 @@ Result<std::optional<storage::Revision>> Releases::pinned_call(
   main.program = run.program;
   main.number = run.revision;
   main.content = run.content;
-  const auto release = verify(main, run.created);
+  // It was not withdrawn when the run was stored (RunStore::create), and what it pins was not.
+  const auto release = verify(main, Asked::Again);
   if (!release) return fail(release.error());
   if (release->id != *run.approval) {
     return fail(Errc::Corrupt,
@@ -302,19 +303,16 @@ std::optional<storage::Revision> Releases::offered(const storage::ProgramSummary
 }
 
 bool Releases::may_call(const storage::Revision& revision, const storage::Run& run) {
-  if (revision.is_held || revision.in_force_since() > run.created) return false;
-  if (run.allowed_as == RunAllowance::Released) return revision.was_released_at(run.created);
-  return !revision.was_withdrawn_at(run.created);
+  if (!revision.was_in_force_for(run.number)) return false;
+  if (run.allowed_as == RunAllowance::Released) return revision.was_released_for(run.number);
+  return !revision.was_withdrawn_for(run.number);
 }
 
 Result<void> Releases::check_call(const storage::Revision& revision, const storage::Run& run) {
   if (run.allowed_as != RunAllowance::Released) return {};
-  const auto approval = verify(revision, run.created);
-  if (!approval) return fail(approval.error());
-  if (approval->time <= run.created) return {};
-  return fail(Errc::Corrupt,
-              "program {} revision {} was released after run {} began: the database was changed",
-              revision.program, revision.number, run.id);
+  const bool is_kept = revision.state == RevisionState::Withdrawn;
+  const auto approval = verify(revision, is_kept ? Asked::Again : Asked::Anew);
+  return approval ? Result<void>() : fail(approval.error());
 }
 
 }  // namespace dripline::library

@@ -87,9 +87,9 @@ class Releases {
   std::optional<storage::Revision> offered(const storage::ProgramSummary& program,
                                            const std::string& machine);
   /// Whether a run may call this revision. Judged as of the run's beginning, so that a run keeps
-  /// what it began with.
+  /// what it began with, and by the store's order: clocks are set, and those of two servers differ.
   static bool may_call(const storage::Revision& revision, const storage::Run& run);
-  /// Errors: Corrupt, Conflict (released under another name).
+  /// Of one that it may call. Errors: Corrupt, Conflict (released under another name).
   Result<void> check_call(const storage::Revision& revision, const storage::Run& run);
 
   /// What a run under a release that pins its calls gets for any of these names, the most literal
@@ -101,9 +101,11 @@ class Releases {
   static constexpr std::size_t kMaxComment = 1024;
 
  private:
+  /// Again: by a run that began before it was withdrawn.
+  enum class Asked : std::uint8_t { Anew, Again };
   bool proves_out(const Wish& wish) const;
   Result<storage::Revision> wanted(const Wish& wish);
-  Result<storage::Decision> verify(const storage::Revision& revision, UtcTime moment);
+  Result<storage::Decision> verify(const storage::Revision& revision, Asked asked);
   Result<storage::DecisionFrom> decision(const Request& request, const storage::Revision& revision);
   Result<storage::Revision> release_together(const Request& request, storage::DecisionFrom main);
   Result<Admission> admit_by_state(const Wish& wish);

@@ -13,10 +13,11 @@ namespace dripline::machines {
 Result<void> check_control_memory(const RunSources& sources, const storage::Run& run);
 
 /// The revision a run uses for the name a program called: the one that its release pins, and
-/// nothing else where it pins what is called; otherwise the newest one that existed, and that it
-/// was allowed to call, when the run was created, so that every request of a run, also after a
-/// restart of the server, gets the same text. Errors: NotFound, naming what was searched for,
-/// Corrupt (Releases::check_call).
+/// nothing else where it pins what is called; otherwise the one that its machine has got text of
+/// (RunStore::calls); otherwise the newest one that was in force, and that it was allowed to call,
+/// when the run was stored. So every request of a run, also after a restart of the server, gets the
+/// same text. No time decides it (Revision::was_in_force_for). Errors: NotFound, naming what was
+/// searched for, Corrupt (Releases::check_call).
 Result<storage::Revision> resolve_called_program(const RunSources& sources, const storage::Run& run,
                                                  const std::string& name);
 

@@ -17,8 +17,8 @@ const std::string kSelectRun =
     "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS NOT DISTINCT FROM "
     "revision.sha256, "
     "run.allowed_as, "
-    "run.approval, run.job, run.gateway_setup, run.motion_seconds, run.path_mm, run.is_test FROM "
-    "run "
+    "run.approval, run.job, run.gateway_setup, run.motion_seconds, run.path_mm, run.is_test, "
+    "run.number FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "LEFT JOIN content ON content.sha256 = run.sha256 ";
@@ -61,6 +61,7 @@ Run read_run(const sql::Statement& row) {
   const auto seconds = row.optional_real(27), path = row.optional_real(28);
   if (seconds && path) run.statistics = RunStatistics{*seconds, *path};
   run.is_test = row.integer(29) != 0;
+  run.number = row.number(30);
   return run;
 }
 

@@ -30,11 +30,27 @@ struct Revision {
   std::optional<UtcTime> released, withdrawn;  ///< when; absent: never
   std::string cam_file;                        ///< where its bytes come from; empty: not stated
 
-  /// Since when it may run; of a held revision only when it was stored.
-  UtcTime in_force_since() const { return accepted.value_or(created); }
-  bool was_withdrawn_at(UtcTime time) const { return withdrawn && *withdrawn <= time; }
-  bool was_released_at(UtcTime time) const {
-    return released && *released <= time && !was_withdrawn_at(time);
+  /// The newest run (Run::number) when it came into force, was released, was withdrawn; 0: there
+  /// was none. Absent: not yet, or before version 25.
+  std::optional<std::uint64_t> in_force_after = {}, released_after = {}, withdrawn_after = {};
+
+  /// What it was when this run was stored; for 0, a run that is not, what it is now. By the store's
+  /// own order and by no time: clocks are set, and those of two servers differ.
+  bool was_in_force_for(std::uint64_t run) const {
+    return !is_held && !came_after(in_force_after, run);
+  }
+  bool was_withdrawn_for(std::uint64_t run) const {
+    return state == RevisionState::Withdrawn && !came_after(withdrawn_after, run);
+  }
+  bool was_released_for(std::uint64_t run) const {
+    const bool is_ever = state == RevisionState::Released ||
+                         (state == RevisionState::Withdrawn && released.has_value());
+    return is_ever && !came_after(released_after, run) && !was_withdrawn_for(run);
+  }
+
+ private:
+  static bool came_after(const std::optional<std::uint64_t>& newest, std::uint64_t run) {
+    return run != 0 && newest && *newest >= run;
   }
 };
 

@@ -114,7 +114,12 @@ Result<void> set_state(sql::Database& database, const Decision& decision) {
   return sql::run(database,
                   "UPDATE revision SET state = ?3, "
                   "released_us = CASE WHEN ?3 = 'released' THEN ?4 ELSE released_us END, "
-                  "withdrawn_us = CASE WHEN ?3 = 'withdrawn' THEN ?4 ELSE withdrawn_us END "
+                  "released_after = CASE WHEN ?3 = 'released' THEN newest.run "
+                  "ELSE released_after END, "
+                  "withdrawn_us = CASE WHEN ?3 = 'withdrawn' THEN ?4 ELSE withdrawn_us END, "
+                  "withdrawn_after = CASE WHEN ?3 = 'withdrawn' THEN newest.run "
+                  "ELSE withdrawn_after END "
+                  "FROM (SELECT coalesce(max(run.number), 0) AS run FROM run) AS newest "
                   "WHERE number = ?2 AND program = (SELECT id FROM program WHERE name = ?1)",
                   decision.program, decision.revision, to_string(state_after(decision.step)),
                   decision.time);

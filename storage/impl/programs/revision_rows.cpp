@@ -10,7 +10,8 @@ const std::string kRevisionColumns =
     "program.name, revision.number, revision.sha256, coalesce(content.size, 0), revision.control, "
     "revision.comment, revision.author, revision.created_us, revision.standing = 'held', "
     "revision.accepted_us, named.sha256, revision.state, revision.released_us, "
-    "revision.withdrawn_us, revision.cam_file ";
+    "revision.withdrawn_us, revision.cam_file, revision.in_force_after, revision.released_after, "
+    "revision.withdrawn_after ";
 const std::string kRevisionTables =
     "FROM revision JOIN program ON program.id = revision.program "
     "LEFT JOIN content ON content.sha256 = revision.sha256 "
@@ -35,6 +36,13 @@ Revision read_revision(const sql::Statement& row) {
   revision.released = row.optional_time(12);
   revision.withdrawn = row.optional_time(13);
   revision.cam_file = row.text(14);
+  const auto run = [&](int column) -> std::optional<std::uint64_t> {
+    const auto number = row.optional_integer(column);
+    return number ? std::optional(static_cast<std::uint64_t>(*number)) : std::nullopt;
+  };
+  revision.in_force_after = run(15);
+  revision.released_after = run(16);
+  revision.withdrawn_after = run(17);
   return revision;
 }
 
@@ -131,8 +139,9 @@ Result<std::optional<Revision>> find_same(sql::Database& database, const Upload&
 Result<void> set_standing(sql::Database& database, const Judgment& judgment,
                           std::string_view decision, std::optional<UtcTime> accepted) {
   return sql::run(database,
-                  "UPDATE revision SET standing = ?3, accepted_us = ?4 WHERE number = ?2 AND "
-                  "program = (SELECT id FROM program WHERE name = ?1)",
+                  "UPDATE revision SET standing = ?3, accepted_us = ?4, "
+                  "in_force_after = (SELECT coalesce(max(run.number), 0) FROM run) "
+                  "WHERE number = ?2 AND program = (SELECT id FROM program WHERE name = ?1)",
                   judgment.program, judgment.number, decision, accepted);
 }
 
@@ -205,8 +214,9 @@ Result<Revision> publish_revision(sql::Database& database, const Upload& upload,
   const auto inserted = sql::run(
       database,
       "INSERT INTO revision (program, number, content, control, comment, author, created_us, "
-      "standing, sha256) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
-      "(SELECT sha256 FROM content WHERE content.id = ?3))",
+      "standing, sha256, in_force_after) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
+      "(SELECT sha256 FROM content WHERE content.id = ?3), "
+      "(SELECT coalesce(max(run.number), 0) FROM run))",
       program->id, program->highest + 1, content, upload.control, upload.comment, upload.author,
       now, upload.is_held ? "held" : "accepted");
   if (!inserted) return fail(inserted.error());

@@ -13,7 +13,7 @@ namespace dripline::storage {
 /// Columns of read_revision, the digest of the content that the row names, then FROM with program
 /// and content joined; a WHERE follows.
 extern const std::string kRevisionColumns;
-inline constexpr int kAfterRevision = 15;  ///< the first column past them
+inline constexpr int kAfterRevision = 18;  ///< the first column past them
 extern const std::string kRevisionTables;
 /// A condition: not removed, not rejected.
 extern const std::string kRevisionVisible;

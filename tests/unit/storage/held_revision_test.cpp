@@ -75,7 +75,7 @@ TEST_P(HeldRevision, AcceptedIsInForceFromThenOnAndWrittenDown) {
   ASSERT_TRUE(accepted) << accepted.error().what;
   EXPECT_FALSE(accepted->is_held);
   EXPECT_EQ(accepted->created, received);
-  EXPECT_EQ(accepted->in_force_since(), clock_.now());
+  EXPECT_EQ(accepted->accepted, clock_.now());
   EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt)->number, 2u);
   EXPECT_EQ(store_->programs.list({})->at(0).held, 0u);
   const auto entry = store_->audit.list({})->at(0);

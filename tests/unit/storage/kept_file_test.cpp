@@ -120,6 +120,9 @@ TEST_P(KeptFile, HasStatesOfRevisionsSinceVersion8) {
   ASSERT_EQ(decisions->size(), has_them ? 1u : 0u);
   if (!has_them) return;
   EXPECT_EQ(decisions->front().comment, "scrap");
+  const auto after = version() >= 25 ? std::optional<std::uint64_t>(4) : std::nullopt;
+  EXPECT_EQ(first->withdrawn_after, after);
+  EXPECT_EQ(first->was_withdrawn_for(store_->runs.find("r1")->number), version() < 25);
 }
 
 /// What was there before version 9 is chained when the file becomes one.
@@ -309,7 +312,7 @@ INSTANTIATE_TEST_SUITE_P(, KeptFile,
                                          "v7.sql", "v8.sql", "v9.sql", "v10.sql", "v11.sql",
                                          "v12.sql", "v13.sql", "v14.sql", "v15.sql", "v16.sql",
                                          "v17.sql", "v18.sql", "v19.sql", "v20.sql", "v21.sql",
-                                         "v22.sql", "v23.sql", "v24.sql"),
+                                         "v22.sql", "v23.sql", "v24.sql", "v25.sql"),
                          [](const auto& i) {
                            return std::string(i.param, std::string_view(i.param).find('.'));
                          });

@@ -49,8 +49,9 @@ TEST_P(ReleaseTest, KeepsEveryDecisionAndTheState) {
   const auto withdrawn = take(released, {Withdraw});
   EXPECT_EQ(withdrawn.state, RevisionState::Withdrawn);
   EXPECT_FALSE(store_->programs.list({})->at(0).released);
-  EXPECT_TRUE(withdrawn.was_released_at(*withdrawn.released));
-  EXPECT_FALSE(withdrawn.was_released_at(*withdrawn.withdrawn));
+  EXPECT_EQ(withdrawn.released_after, 0u) << "there was no run";
+  EXPECT_EQ(withdrawn.withdrawn_after, 0u);
+  EXPECT_FALSE(withdrawn.was_released_for(1));
   reopen();
   const auto decisions = store_->releases.decisions("p.nc", 1);
   ASSERT_EQ(decisions->size(), 4u);

@@ -238,27 +238,33 @@ TEST_F(ReleasesTest, ARunCallsOnlyWhatWasReleasedWhenItBegan) {
   use_policy("runs = \"release\"");
   const auto main = release("P", "M2\n");
   const auto draft = push("SUB", "M99\n");
-  Run run = run_of(main, "r1");
-  run.allowed_as = RunAllowance::Released;
-  run.created = clock_.now();
-  EXPECT_FALSE(Releases::may_call(draft, run));
-  clock_.advance(std::chrono::seconds(1));
+  add_machine("lathe-1");
+  const auto begin = [&](const std::string& id) {
+    Run run = run_of(main, id);
+    run.allowed_as = RunAllowance::Released;
+    EXPECT_TRUE(store_->runs.create(run));
+    return store_->runs.find(id).value();
+  };
+  const auto end = [&](const Run& run) {
+    EXPECT_TRUE(store_->runs.set_state(run.id, storage::RunState::Interrupted, ""));
+  };
+  const Run first = begin("r1");
+  EXPECT_FALSE(Releases::may_call(draft, first));
   take_to_release("SUB", 1);
   const auto released = programs_->revision("SUB", 1).value();
-  EXPECT_FALSE(Releases::may_call(released, run)) << "released after the run began";
-  run.created = clock_.now();
-  EXPECT_TRUE(Releases::may_call(released, run));
-  EXPECT_TRUE(releases_->check_call(released, run));
-  clock_.advance(std::chrono::seconds(1));
+  EXPECT_FALSE(Releases::may_call(released, first)) << "released after the run began";
+  end(first);
+  const Run second = begin("r2");
+  EXPECT_TRUE(Releases::may_call(released, second));
+  EXPECT_TRUE(releases_->check_call(released, second));
   decide("SUB", 1, RevisionStep::Withdraw);
   const auto withdrawn = programs_->revision("SUB", 1).value();
-  EXPECT_TRUE(Releases::may_call(withdrawn, run)) << "the run keeps what it began with";
-  EXPECT_TRUE(releases_->check_call(withdrawn, run));
-  run.created = clock_.now();
-  EXPECT_FALSE(Releases::may_call(withdrawn, run));
+  EXPECT_TRUE(Releases::may_call(withdrawn, second)) << "the run keeps what it began with";
+  EXPECT_TRUE(releases_->check_call(withdrawn, second));
+  end(second);
+  EXPECT_FALSE(Releases::may_call(withdrawn, begin("r3")));
   change("UPDATE revision_step SET time_us = 1 WHERE name = 'SUB' AND step = 'release'");
-  run.created = clock_.now() - std::chrono::seconds(1);
-  EXPECT_EQ(releases_->check_call(withdrawn, run).error().code, Errc::Corrupt);
+  EXPECT_EQ(releases_->check_call(withdrawn, second).error().code, Errc::Corrupt);
 }
 
 }  // namespace
