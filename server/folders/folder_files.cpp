@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <memory>
 
 #include "protocol/base/durable_file.hpp"
@@ -21,23 +20,6 @@ namespace {
 constexpr std::size_t kPiece = 256 * 1024;
 constexpr mode_t kFolderMode = 0770;
 constexpr mode_t kReasonMode = 0660;
-
-std::string system_words(int error) {
-  std::array<char, 128> words{};
-  return ::strerror_r(error, words.data(), words.size());
-}
-
-Error system_error(const std::string& what, int error) {
-  const bool is_denied = error == EACCES || error == EPERM || error == EROFS;
-  // Another computer that has the file of a share open.
-  const bool is_passing = error == EBUSY || error == ETXTBSY || error == EAGAIN || error == ESTALE;
-  const auto code = error == ENOENT   ? Errc::NotFound
-                    : error == EEXIST ? Errc::Conflict
-                    : is_denied       ? Errc::Denied
-                    : is_passing      ? Errc::Busy
-                                      : Errc::Io;
-  return {code, fmt::format("{}: {}", what, system_words(error))};
-}
 
 std::string_view words_of(mode_t mode) {
   if (S_ISLNK(mode)) return "a symbolic link";
@@ -81,20 +63,28 @@ Result<Descriptor> open_spool(const std::filesystem::path& folder) {
   return named;
 }
 
-Result<FileCopy> copy_bytes(int from, Descriptor to, const std::string& name,
-                            std::uint64_t max_bytes) {
+struct CopySource {
+  int file = -1;
+  const std::string& name;
+  std::uint64_t max_bytes = 0;
+};
+
+Result<FileCopy> copy_bytes(const CopySource& from, Descriptor to, AnswerWatch& answers) {
   std::vector<char> piece(kPiece);
   Sha256 digest;
   std::uint64_t size = 0;
   for (;;) {
-    const auto got = ::read(from, piece.data(), piece.size());
+    const auto got = ::read(from.file, piece.data(), piece.size());
+    answers.answered();
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return fail(system_error(name, errno));
+    if (got < 0) return fail(system_error(from.name, errno));
     if (got == 0) return FileCopy(std::move(to), size, digest.digest());
     const auto bytes = static_cast<std::size_t>(got);
     size += bytes;
-    if (size > max_bytes)
-      return fail(Errc::LimitExceeded, "it has more than {} bytes, the folder's limit", max_bytes);
+    if (size > from.max_bytes) {
+      return fail(Errc::LimitExceeded, "it has more than {} bytes, the folder's limit",
+                  from.max_bytes);
+    }
     const std::string_view text(piece.data(), bytes);
     digest.update(text);
     if (!write_all(to.get(), text)) return fail(system_error("a copy cannot be written", errno));
@@ -118,14 +108,20 @@ std::string numbered(const std::string& name, unsigned number) {
                      has_extension ? name.substr(dot) : "");
 }
 
-/// Made where it is missing; never the target of a symbolic link.
-Result<Descriptor> open_subfolder(int parent, const std::string& name) {
-  if (::mkdirat(parent, name.c_str(), kFolderMode) != 0 && errno != EEXIST)
-    return fail(system_error(name, errno));
-  Descriptor folder(
-      ::openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-  if (!folder) return fail(system_error(name, errno));
-  return folder;
+/// A new file of this name and no one else's: neither a pipe that no one reads, nor a link, nor a
+/// file that was there. Errors: those of system_error.
+Result<Descriptor> make_file(int folder, const std::string& name) {
+  constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  Descriptor file(::openat(folder, name.c_str(), kNew, kReasonMode));
+  if (!file && errno == EEXIST) {  // of a server that was killed
+    (void)::unlinkat(folder, name.c_str(), 0);
+    file = Descriptor(::openat(folder, name.c_str(), kNew, kReasonMode));
+  }
+  if (!file) return fail(system_error(name, errno));
+  struct stat facts {};
+  if (::fstat(file.get(), &facts) != 0) return fail(system_error(name, errno));
+  if (!S_ISREG(facts.st_mode)) return fail(Errc::Denied, "{}: it is no file", name);
+  return file;
 }
 
 }  // namespace
@@ -152,18 +148,63 @@ Result<void> FileCopy::map() {
   return {};
 }
 
-Result<FolderFiles> FolderFiles::open(const FolderSettings& settings) {
-  Descriptor folder(::open(settings.path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder) return fail(system_error(settings.path.string(), errno));
-  FolderFiles files(std::move(folder));
+FolderFiles::FolderFiles(const Options& options, Descriptor folder)
+    : path_(options.settings.path),
+      own_folders_(options.own_folders),
+      answers_(&options.answers),
+      folder_(std::move(folder)),
+      done_{.name = options.settings.done},
+      failed_{.name = options.settings.failed} {}
+
+Result<FolderFiles> FolderFiles::open(const Options& options) {
+  const AnswerWatch::Wait wait(options.answers);
+  auto folder = open_folder(AT_FDCWD, options.settings.path.string());
+  if (!folder) return fail(folder.error());
+  FolderFiles files(options, *std::move(folder));
+  const auto identity = identity_of(files.folder_.get());
+  if (!identity) return fail(identity.error());
+  files.identity_ = *identity;
+  if (auto apart = check_apart(files.folder_.get(), files.own_folders_); !apart)
+    return fail(apart.error().code, "{}: {}", files.path_.string(), apart.error().what);
   for (Subfolder* sub : {&files.done_, &files.failed_}) {
-    sub->name = sub == &files.done_ ? settings.done : settings.failed;
-    auto opened = open_subfolder(files.folder_.get(), sub->name);
-    if (!opened)
-      return fail(opened.error().code, "{}/{}", settings.path.string(), opened.error().what);
-    sub->folder = *std::move(opened);
+    if (auto opened = files.open_subfolder(*sub); !opened) return fail(opened.error());
   }
   return files;
+}
+
+/// Made where it is missing; never the target of a symbolic link.
+Result<void> FolderFiles::open_subfolder(Subfolder& sub) {
+  const bool is_made = ::mkdirat(folder_.get(), sub.name.c_str(), kFolderMode) == 0;
+  if (!is_made && errno != EEXIST) return fail(system_error((path_ / sub.name).string(), errno));
+  auto folder = open_folder(folder_.get(), sub.name);
+  if (!folder) return fail(folder.error().code, "{}/{}", path_.string(), folder.error().what);
+  const auto identity = identity_of(folder->get());
+  if (!identity) return fail(identity.error());
+  if (auto apart = check_apart(folder->get(), own_folders_); !apart)
+    return fail(apart.error().code, "{}/{}: {}", path_.string(), sub.name, apart.error().what);
+  sub.folder = *std::move(folder);
+  sub.identity = *identity;
+  return {};
+}
+
+Result<void> FolderFiles::check_subfolder(Subfolder& sub) {
+  const auto same = check_same(folder_.get(), sub.name, sub.identity);
+  if (same) return {};
+  if (same.error().code == Errc::NotFound) return open_subfolder(sub);
+  return fail(same.error().code, "{}/{}", path_.string(), same.error().what);
+}
+
+Result<void> FolderFiles::check() {
+  const AnswerWatch::Wait wait(*answers_);
+  if (auto same = check_same(AT_FDCWD, path_.string(), identity_); !same) return same;
+  for (Subfolder* sub : {&done_, &failed_}) {
+    if (auto same = check_subfolder(*sub); !same) return same;
+  }
+  return {};
+}
+
+std::filesystem::path FolderFiles::descriptor_path() const {
+  return fmt::format("/proc/self/fd/{}", folder_.get());
 }
 
 FolderFiles::Place FolderFiles::place_of(const std::string& target) const {
@@ -174,6 +215,7 @@ FolderFiles::Place FolderFiles::place_of(const std::string& target) const {
 }
 
 Result<std::vector<Entry>> FolderFiles::list() const {
+  const AnswerWatch::Wait wait(*answers_);
   const int own = ::openat(folder_.get(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (own < 0) return fail(system_error("the folder cannot be read", errno));
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(::fdopendir(own), &::closedir);
@@ -188,6 +230,7 @@ Result<std::vector<Entry>> FolderFiles::list() const {
     const std::string name = found->d_name;
     if (name == "." || name == ".." || name == done_.name || name == failed_.name) continue;
     auto entry = look_at(name);
+    answers_->answered();
     if (!entry) continue;  // gone already
     if (entries.size() >= kMaxEntries)
       return fail(Errc::LimitExceeded, "the folder has more than {} entries", kMaxEntries);
@@ -210,6 +253,7 @@ Result<FileCopy> FolderFiles::copy(const Entry& seen, const std::filesystem::pat
     return fail(Errc::LimitExceeded, "it has {} bytes, the folder's limit is {}", seen.size,
                 max_bytes);
   }
+  const AnswerWatch::Wait wait(*answers_);
   // Without waiting: what became a pipe or a device since it was seen.
   const Descriptor file(::openat(folder_.get(), seen.name.c_str(),
                                  O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
@@ -219,10 +263,13 @@ Result<FileCopy> FolderFiles::copy(const Entry& seen, const std::filesystem::pat
     return ::fstat(file.get(), &facts) == 0 && entry_of(seen.name, facts).is_unchanged(seen);
   };
   if (!is_as_seen()) return fail(Errc::Busy, "it has changed");
+  if (facts.st_nlink > 1)
+    return fail(Errc::Denied, "it is a hard link: the same file has another name too");
   if (is_open_for_writing(file.get())) return fail(Errc::Busy, "it is open for writing");
   auto to = open_spool(spool);
   if (!to) return fail(to.error());
-  auto copy = copy_bytes(file.get(), *std::move(to), seen.name, max_bytes);
+  auto copy = copy_bytes({.file = file.get(), .name = seen.name, .max_bytes = max_bytes},
+                         *std::move(to), *answers_);
   if (!copy) return copy;
   struct stat named {};
   const bool is_there =
@@ -235,6 +282,11 @@ Result<FileCopy> FolderFiles::copy(const Entry& seen, const std::filesystem::pat
 }
 
 bool FolderFiles::has(const std::string& path) const {
+  const AnswerWatch::Wait wait(*answers_);
+  return is_there(path);
+}
+
+bool FolderFiles::is_there(const std::string& path) const {
   struct stat facts {};
   const Place place = place_of(path);
   return ::fstatat(place.folder, place.name.c_str(), &facts, AT_SYMLINK_NOFOLLOW) == 0;
@@ -242,21 +294,24 @@ bool FolderFiles::has(const std::string& path) const {
 
 Result<std::string> FolderFiles::free_target(const std::string& folder,
                                              const std::string& name) const {
+  const AnswerWatch::Wait wait(*answers_);
   constexpr unsigned kHighest = 100'000;
   for (unsigned number = 1; number <= kHighest; ++number) {
     std::string target = folder + "/" + numbered(name, number);
-    if (!has(target)) return target;
+    if (!is_there(target)) return target;
+    answers_->answered();
   }
   return fail(Errc::LimitExceeded, "{} has too many files of the name {}", folder, name);
 }
 
 Result<void> FolderFiles::move(const std::string& name, const std::string& target) const {
+  const AnswerWatch::Wait wait(*answers_);
   const Place to = place_of(target);
   if (::renameat2(folder_.get(), name.c_str(), to.folder, to.name.c_str(), RENAME_NOREPLACE) == 0)
     return {};
   // Network shares may not know that flag: no one else makes files there.
   const bool is_flag_unknown = errno == EINVAL || errno == ENOSYS;
-  if (is_flag_unknown && !has(target) &&
+  if (is_flag_unknown && !is_there(target) &&
       ::renameat(folder_.get(), name.c_str(), to.folder, to.name.c_str()) == 0) {
     return {};
   }
@@ -264,16 +319,16 @@ Result<void> FolderFiles::move(const std::string& name, const std::string& targe
 }
 
 Result<void> FolderFiles::write_reason(const std::string& target, const std::string& reason) const {
+  const AnswerWatch::Wait wait(*answers_);
   const Place place = place_of(target + ".reason.txt");
   const std::string& path = place.name;
   const std::string part = path + ".part";
   {
-    const Descriptor file(::openat(place.folder, part.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC,
-                                   kReasonMode));
-    if (!file) return fail(system_error(path, errno));
+    const auto file = make_file(place.folder, part);
+    if (!file) return fail(file.error());
     const std::string line = reason + "\n";
-    if (!write_all(file.get(), line)) return fail(system_error("a copy cannot be written", errno));
+    if (!write_all(file->get(), line))
+      return fail(system_error("a reason cannot be written", errno));
   }
   if (::renameat(place.folder, part.c_str(), place.folder, path.c_str()) == 0) return {};
   return fail(system_error(path, errno));

@@ -9,6 +9,8 @@
 #include "protocol/base/descriptor.hpp"
 #include "protocol/base/digest.hpp"
 #include "protocol/base/result.hpp"
+#include "server/folders/answer_watch.hpp"
+#include "server/folders/folder_identity.hpp"
 #include "server/folders/folder_settings.hpp"
 
 namespace dripline::folders {
@@ -52,12 +54,25 @@ class FileCopy {
   const char* bytes_ = nullptr;
 };
 
-/// One look at a hot folder, with its folders for what is done and what failed. Nothing here
-/// follows a symbolic link out of it. It may wait for the network where the folder is a share.
+/// A hot folder, with its folders for what is done and what failed. They are opened once; whatever
+/// has their names later, everything is done below the folders that were opened. Nothing here
+/// follows a symbolic link, or waits for a pipe. It may wait for the network where the folder is a
+/// share.
 class FolderFiles {
  public:
-  /// Makes the two folders where they are missing. Errors: NotFound, Denied, Io.
-  static Result<FolderFiles> open(const FolderSettings& settings);
+  struct Options {
+    const FolderSettings& settings;
+    const std::vector<std::filesystem::path>& own_folders;  ///< of the server: never a hot folder
+    AnswerWatch& answers;                                   ///< must outlive it
+  };
+  /// Makes the two folders where they are missing. Errors: NotFound, Denied (also: a link is at the
+  /// path, or it has to do with the server's own folders), Io.
+  static Result<FolderFiles> open(const Options& options);
+  /// That the names still lead to the folders that were opened; one of the two that is missing is
+  /// made again. Errors: NotFound, Conflict (another folder, or a link, has the name), Denied, Io.
+  Result<void> check();
+  /// For what wants a path of the very folder that was opened.
+  std::filesystem::path descriptor_path() const;
 
   /// All entries but those two folders, by their time of change. Errors: Io, LimitExceeded (more
   /// than kMaxEntries).
@@ -65,7 +80,8 @@ class FolderFiles {
   /// Errors: NotFound.
   Result<Entry> look_at(const std::string& name) const;
   /// Copies the file's bytes into `spool`, while it stays as it was seen. Errors: Busy (it is open
-  /// for writing, or has changed: try again), Denied (it cannot be read), LimitExceeded, Io.
+  /// for writing, or has changed: try again), Denied (it cannot be read, or has another name too: a
+  /// hard link may be one to a file that its maker cannot read), LimitExceeded, Io.
   Result<FileCopy> copy(const Entry& seen, const std::filesystem::path& spool,
                         std::uint64_t max_bytes) const;
 
@@ -82,16 +98,24 @@ class FolderFiles {
  private:
   struct Subfolder {
     std::string name;
-    Descriptor folder;
+    Descriptor folder = {};
+    FolderIdentity identity = {};
   };
   struct Place {
     int folder = -1;
     std::string name;
   };
-  explicit FolderFiles(Descriptor folder) : folder_(std::move(folder)) {}
+  FolderFiles(const Options& options, Descriptor folder);
   Place place_of(const std::string& target) const;
+  bool is_there(const std::string& path) const;
+  Result<void> open_subfolder(Subfolder& sub);
+  Result<void> check_subfolder(Subfolder& sub);
 
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> own_folders_;
+  AnswerWatch* answers_;
   Descriptor folder_;
+  FolderIdentity identity_;
   Subfolder done_, failed_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
 namespace dripline::folders {
 namespace {
@@ -29,12 +30,12 @@ void note(const inotify_event& event, const std::string& name, Arrivals& arrival
 
 FolderWatch::Events::Events() : inotify_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {}
 
-void FolderWatch::Events::watch(const std::filesystem::path& folder) {
+bool FolderWatch::Events::watch(const std::filesystem::path& folder) {
   // The same folder keeps its watch; another one at the path gets one of its own.
-  if (!inotify_) return;
+  if (!inotify_) return false;
   const int watch = ::inotify_add_watch(inotify_.get(), folder.c_str(), kEvents);
   if (watch != watch_ && watch_ >= 0) (void)::inotify_rm_watch(inotify_.get(), watch_);
-  watch_ = watch;
+  return std::exchange(watch_, watch) != watch && watch >= 0;
 }
 
 bool FolderWatch::Events::read(Arrivals& arrivals) {
@@ -57,13 +58,24 @@ bool FolderWatch::Events::read(Arrivals& arrivals) {
 
 FolderWatch::FolderWatch(HotFolder& folder)
     : folder_(folder), wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+  thread_ = std::jthread([this](const std::stop_token& stop) {
+    work(stop);
+    end_.set_value();
+  });
 }
 
 FolderWatch::~FolderWatch() {
+  request_end();
+}
+
+void FolderWatch::request_end() {
   thread_.request_stop();
   const std::uint64_t one = 1;
   (void)!::write(wake_.get(), &one, sizeof one);
+}
+
+bool FolderWatch::has_ended(std::chrono::steady_clock::time_point until) const {
+  return ended_.wait_until(until) == std::future_status::ready;
 }
 
 void FolderWatch::work(const std::stop_token& stop) {
@@ -71,11 +83,12 @@ void FolderWatch::work(const std::stop_token& stop) {
   Events events;
   Arrivals arrivals;
   while (!stop.stop_requested()) {
-    events.watch(folder_.settings().path);  // before the look, so that nothing falls between
     events.read(arrivals);
     const auto begun = steady_clock::now();
     auto next = folder_.look(arrivals, stop);
     arrivals.whole.clear();
+    // A look opens the folder: what came between it and the watch is found by another one.
+    if (const auto path = folder_.watched_path(); !path.empty() && events.watch(path)) next = begun;
     for (;;) {
       const auto left =
           std::chrono::duration_cast<std::chrono::milliseconds>(next - steady_clock::now());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <future>
 #include <thread>
 
 #include "protocol/base/descriptor.hpp"
@@ -13,16 +15,25 @@ namespace dripline::folders {
 class FolderWatch {
  public:
   explicit FolderWatch(HotFolder& folder);
+  /// Waits for its thread, as long as that takes.
   ~FolderWatch();
   FolderWatch(const FolderWatch&) = delete;
   FolderWatch& operator=(const FolderWatch&) = delete;
+
+  /// It takes no further file. Returns at once.
+  void request_end();
+  /// After that. False: its thread had not ended by `until`, and uses the folder as long as the
+  /// process lives.
+  bool has_ended(std::chrono::steady_clock::time_point until) const;
+  const HotFolder& folder() const { return folder_; }
 
   /// What arrived; tests use it without the thread.
   class Events {
    public:
     Events();
-    /// Watches the folder, if it is not watched. Where the system cannot, nothing is ever reported.
-    void watch(const std::filesystem::path& folder);
+    /// Watches the folder, if it is not watched. True: from now on. Where the system cannot,
+    /// nothing is ever reported.
+    bool watch(const std::filesystem::path& folder);
     /// Reads what is there into `arrivals`. Never waits. True: there was something.
     bool read(Arrivals& arrivals);
     int descriptor() const { return inotify_.get(); }
@@ -37,6 +48,8 @@ class FolderWatch {
 
   HotFolder& folder_;
   Descriptor wake_;  ///< an eventfd
+  std::promise<void> end_;
+  std::future<void> ended_ = end_.get_future();
   std::jthread thread_;
 };
 

@@ -16,6 +16,25 @@ void Folders::begin() {
   for (const auto& folder : folders_) watches_.push_back(std::make_unique<FolderWatch>(*folder));
 }
 
+void Folders::request_end() {
+  for (const auto& watch : watches_) watch->request_end();
+}
+
+Result<void> Folders::end(std::chrono::steady_clock::time_point until) {
+  std::string silent;
+  for (const auto& watch : watches_) {
+    if (watch->has_ended(until)) continue;
+    silent += (silent.empty() ? "" : ", ") + watch->folder().settings().name;
+  }
+  if (!silent.empty()) return fail(Errc::Timeout, "hot folder {} does not answer", silent);
+  watches_.clear();
+  return {};
+}
+
+void Folders::look() {
+  for (const auto& folder : folders_) folder->report_silence();
+}
+
 std::vector<FolderState> Folders::states() const {
   std::vector<FolderState> states;
   states.reserve(folders_.size());

@@ -20,6 +20,14 @@ class Folders {
 
   /// Begins to look, each folder on a thread of its own.
   void begin();
+  /// No further file is taken. Returns at once.
+  void request_end();
+  /// After that: waits for what is being taken. Errors: Timeout (names the folders whose thread had
+  /// not ended by `until`, as on a share that hangs: this object, and what it uses, must live as
+  /// long as the process).
+  Result<void> end(std::chrono::steady_clock::time_point until);
+  /// From time to time: reports folders that do not answer.
+  void look();
 
   std::vector<FolderState> states() const;
   /// Newest first; without a name of all folders. Errors: NotFound, those of the store.

@@ -26,27 +26,57 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 }  // namespace
 
 HotFolder::HotFolder(const Parts& parts, FolderSettings settings)
-    : parts_(parts), settings_(std::move(settings)), next_(parts.sources.clock.steady_now()) {
+    : parts_(parts),
+      settings_(std::move(settings)),
+      answers_(parts.sources.clock),
+      next_(parts.sources.clock.steady_now()) {
   state_.settings = settings_;
 }
 
 FolderState HotFolder::state() const {
+  const std::string silence = silence_fault();
   const std::lock_guard lock(mutex_);
-  return state_;
+  FolderState state = state_;
+  if (!silence.empty()) state.fault = silence;
+  return state;
+}
+
+std::filesystem::path HotFolder::watched_path() const {
+  return files_ ? files_->descriptor_path() : std::filesystem::path();
+}
+
+/// Empty: it answers.
+std::string HotFolder::silence_fault() const {
+  const auto silence = answers_.silence();
+  if (silence < AnswerWatch::kPatience) return {};
+  return fmt::format("{} has not answered for {} s", settings_.path.string(), silence.count());
+}
+
+void HotFolder::report_silence() {
+  const std::lock_guard reporting(reporting_);
+  const std::string fault = silence_fault();
+  if (fault.empty()) return;
+  const bool is_new = !std::exchange(is_silent_, true);
+  if (is_new) process::log_warning("folder={}: {}", settings_.name, fault);
+  if (parts_.on_fault) parts_.on_fault(settings_.name, fault);
+}
+
+/// The folder that was opened stays the hot folder: another one at its path, or at that of its two
+/// folders, may be one that someone wants the server to read and to empty.
+Result<void> HotFolder::open_or_check() {
+  if (files_) return files_->check();
+  auto files = FolderFiles::open(
+      {.settings = settings_, .own_folders = parts_.own_folders, .answers = answers_});
+  if (!files) return fail(files.error());
+  files_.emplace(*std::move(files));
+  return {};
 }
 
 SteadyTime HotFolder::look(const Arrivals& arrivals, const std::stop_token& stop) {
   const Clock& clock = parts_.sources.clock;
   next_ = clock.steady_now() + settings_.poll;
-  Result<void> looked;
-  auto files = FolderFiles::open(settings_);
-  if (files) {
-    files_.emplace(*std::move(files));
-    looked = look_through(arrivals, stop);
-    files_.reset();
-  } else {
-    looked = fail(files.error());
-  }
+  Result<void> looked = open_or_check();
+  if (looked) looked = look_through(arrivals, stop);
   set_fault(looked);
   const auto counts = parts_.sources.store.folders.counts(settings_.name);
   const std::lock_guard lock(mutex_);
@@ -58,6 +88,9 @@ SteadyTime HotFolder::look(const Arrivals& arrivals, const std::stop_token& stop
 
 void HotFolder::set_fault(const Result<void>& looked) {
   const std::string fault = looked ? std::string() : looked.error().what;
+  const std::lock_guard reporting(reporting_);
+  if (std::exchange(is_silent_, false))
+    process::log_info("folder={}: it answers again", settings_.name);
   {
     const std::lock_guard lock(mutex_);
     if (fault != state_.fault && !fault.empty())

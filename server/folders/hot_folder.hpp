@@ -44,6 +44,8 @@ class HotFolder {
     const library::ControlCatalog& catalog;
     machines::RunSources sources;
     std::filesystem::path spool;  ///< for copies while they are checked
+    /// Of the server: a hot folder that is, holds or lies in one of them is refused.
+    std::vector<std::filesystem::path> own_folders = {};
     /// Why the folder cannot be worked with; empty: it can. After every look.
     std::function<void(const std::string& folder, const std::string& fault)> on_fault = {};
     /// A file was stored or refused. It must return soon.
@@ -55,6 +57,11 @@ class HotFolder {
   /// network of a share, and the check of a program.
   SteadyTime look(const Arrivals& arrivals, const std::stop_token& stop);
   FolderState state() const;
+  /// From time to time, on any thread: a folder that does not answer (AnswerWatch::kPatience) is a
+  /// fault, and its own thread cannot report it.
+  void report_silence();
+  /// Of `look`'s thread: a path of the very folder that was opened; empty: none is.
+  std::filesystem::path watched_path() const;
   const FolderSettings& settings() const { return settings_; }
 
   /// After this, what failed for a reason that may pass is tried again.
@@ -74,6 +81,8 @@ class HotFolder {
     std::string reason;            ///< why it is refused unseen; empty: it is not
   };
 
+  Result<void> open_or_check();
+  std::string silence_fault() const;
   Result<void> look_through(const Arrivals& arrivals, const std::stop_token& stop);
   Result<void> finish_interrupted(const std::map<std::string_view, const Entry*>& entries);
   bool is_complete(const Entry& entry, const Arrivals& arrivals);
@@ -96,10 +105,13 @@ class HotFolder {
 
   const Parts parts_;
   const FolderSettings settings_;
-  std::optional<FolderFiles> files_;        ///< while it is looked through
+  AnswerWatch answers_;
+  std::optional<FolderFiles> files_;        ///< from the first time that the folder could be opened
   std::map<std::string, Watched> watched_;  ///< by name
   std::set<std::string> refused_folders_;
   SteadyTime next_;
+  std::mutex reporting_;    ///< before `mutex_`: what is reported last is what is last
+  bool is_silent_ = false;  ///< reported so; under `reporting_`
   mutable std::mutex mutex_;
   FolderState state_;
 };

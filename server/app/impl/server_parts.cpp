@@ -9,6 +9,14 @@ namespace {
 
 constexpr std::chrono::seconds kWebhookTimeout{5};
 
+/// What is in these is no program of a hot folder's.
+std::vector<std::filesystem::path> own_folders(const StateFolder& state, const Settings& settings) {
+  std::vector<std::filesystem::path> folders{state.path()};
+  for (const std::string& path : {settings.backups, settings.archives})
+    if (!path.empty()) folders.emplace_back(path);
+  return folders;
+}
+
 }  // namespace
 
 ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
@@ -64,6 +72,7 @@ ServerParts::ServerParts(StateFolder state_folder, KeptStore opened,
            .catalog = catalog,
            .sources = {.store = *store, .releases = releases, .clock = clock},
            .spool = folder.path(),
+           .own_folders = own_folders(folder, settings),
            .on_fault = watch_faults("folders", "folder",
                                     "a hot folder cannot be read, or its files cannot be taken")},
           settings.folders),
@@ -275,6 +284,7 @@ void ServerParts::announce() {
 }
 
 Result<void> ServerParts::look() {
+  folders.look();
   auto sound = store->probe();
   if (!sound) return sound;
   if (!is_announced) announce();

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/inotify.h>
 #include <fstream>
+#include <functional>
+#include <future>
 
 #include "server/folders/folders.hpp"
 #include "tests/support/child_process.hpp"
@@ -45,12 +47,13 @@ class FoldersTest : public server_test::ServerTest {
     settings_.poll = std::chrono::seconds(3600);
     fs::create_directories(settings_.path);
   }
-  void begin() {
+  void begin(std::function<void(const storage::FolderFile&)> on_file = {}) {
     folders_ = std::make_unique<Folders>(
         HotFolder::Parts{.programs = *programs_,
                          .catalog = catalog_,
                          .sources = {.store = *store_, .releases = *releases_, .clock = real_},
-                         .spool = folder_.path()},
+                         .spool = folder_.path(),
+                         .on_file = std::move(on_file)},
         std::vector{settings_});
     folders_->begin();
   }
@@ -73,6 +76,23 @@ TEST_F(FoldersTest, AreWokenByTheSystemAndEndAtOnce) {
   const auto begun = std::chrono::steady_clock::now();
   folders_.reset();
   EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
+}
+
+/// A thread in the kernel that waits for a share cannot be ended; this one waits for the test.
+TEST_F(FoldersTest, OneThatDoesNotEndIsNamedAndNotWaitedForLonger) {
+  std::promise<void> taken, answered;
+  begin([&](const storage::FolderFile&) {
+    taken.set_value();
+    answered.get_future().wait();
+  });
+  std::ofstream(settings_.path / "O0200.nc") << "O200\nM30\n";
+  ASSERT_EQ(taken.get_future().wait_for(test_support::kPatience), std::future_status::ready);
+  folders_->request_end();
+  const auto ended = folders_->end(std::chrono::steady_clock::now());
+  ASSERT_FALSE(ended);
+  EXPECT_EQ(ended.error().what, "hot folder cam does not answer");
+  answered.set_value();
+  EXPECT_TRUE(folders_->end(std::chrono::steady_clock::now() + test_support::kPatience));
 }
 
 }  // namespace
