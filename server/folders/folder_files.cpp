@@ -18,8 +18,8 @@ namespace dripline::folders {
 namespace {
 
 constexpr std::size_t kPiece = 256 * 1024;
-constexpr mode_t kFolderMode = 0770;
-constexpr mode_t kReasonMode = 0660;
+/// Who may read or write the hot folder may do so in its two folders; others write there never.
+constexpr mode_t kFolderModes = 0775, kReasonModes = 0664;
 
 std::string_view words_of(mode_t mode) {
   if (S_ISLNK(mode)) return "a symbolic link";
@@ -108,14 +108,28 @@ std::string numbered(const std::string& name, unsigned number) {
                      has_extension ? name.substr(dot) : "");
 }
 
+/// What was made has the group and the permissions of the folder that it was made in, whatever the
+/// process's umask is: the people of that folder read there what became of their files. Best
+/// effort: some shares know neither, and the group may be one that the server is not of.
+void open_to_people(int made, int folder, mode_t modes) {
+  struct stat facts {};
+  if (::fstat(folder, &facts) != 0) return;
+  (void)!::fchown(made, static_cast<uid_t>(-1), facts.st_gid);
+  const mode_t mode = (facts.st_mode & modes) | (modes & S_IRWXU);
+  // The bit that hands the group on: a hardened service may not set it.
+  const mode_t handed_on = (modes & S_IXUSR) != 0 ? facts.st_mode & S_ISGID : 0;
+  if (handed_on != 0 && ::fchmod(made, mode | handed_on) == 0) return;
+  (void)!::fchmod(made, mode);
+}
+
 /// A new file of this name and no one else's: neither a pipe that no one reads, nor a link, nor a
 /// file that was there. Errors: those of system_error.
 Result<Descriptor> make_file(int folder, const std::string& name) {
   constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
-  Descriptor file(::openat(folder, name.c_str(), kNew, kReasonMode));
+  Descriptor file(::openat(folder, name.c_str(), kNew, S_IRUSR | S_IWUSR));
   if (!file && errno == EEXIST) {  // of a server that was killed
     (void)::unlinkat(folder, name.c_str(), 0);
-    file = Descriptor(::openat(folder, name.c_str(), kNew, kReasonMode));
+    file = Descriptor(::openat(folder, name.c_str(), kNew, S_IRUSR | S_IWUSR));
   }
   if (!file) return fail(system_error(name, errno));
   struct stat facts {};
@@ -174,7 +188,7 @@ Result<FolderFiles> FolderFiles::open(const Options& options) {
 
 /// Made where it is missing; never the target of a symbolic link.
 Result<void> FolderFiles::open_subfolder(Subfolder& sub) {
-  const bool is_made = ::mkdirat(folder_.get(), sub.name.c_str(), kFolderMode) == 0;
+  const bool is_made = ::mkdirat(folder_.get(), sub.name.c_str(), S_IRWXU) == 0;
   if (!is_made && errno != EEXIST) return fail(system_error((path_ / sub.name).string(), errno));
   auto folder = open_folder(folder_.get(), sub.name);
   if (!folder) return fail(folder.error().code, "{}/{}", path_.string(), folder.error().what);
@@ -182,6 +196,7 @@ Result<void> FolderFiles::open_subfolder(Subfolder& sub) {
   if (!identity) return fail(identity.error());
   if (auto apart = check_apart(folder->get(), own_folders_); !apart)
     return fail(apart.error().code, "{}/{}: {}", path_.string(), sub.name, apart.error().what);
+  if (is_made) open_to_people(folder->get(), folder_.get(), kFolderModes);
   sub.folder = *std::move(folder);
   sub.identity = *identity;
   return {};
@@ -329,6 +344,7 @@ Result<void> FolderFiles::write_reason(const std::string& target, const std::str
     const std::string line = reason + "\n";
     if (!write_all(file->get(), line))
       return fail(system_error("a reason cannot be written", errno));
+    open_to_people(file->get(), place.folder, kReasonModes);
   }
   if (::renameat(place.folder, part.c_str(), place.folder, path.c_str()) == 0) return {};
   return fail(system_error(path, errno));

@@ -90,7 +90,8 @@ class FolderFiles {
   /// Never over another file. Errors: Conflict (the target is there), NotFound, Io, Denied.
   Result<void> move(const std::string& name, const std::string& target) const;
   bool has(const std::string& path) const;
-  /// A text file beside a failed one; whole or not at all.
+  /// A text file beside a failed one; whole or not at all, and readable for who may read the
+  /// folder.
   Result<void> write_reason(const std::string& target, const std::string& reason) const;
 
   static constexpr std::size_t kMaxEntries = 10'000;

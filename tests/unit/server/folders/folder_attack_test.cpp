@@ -13,6 +13,11 @@ class FolderAttackTest : public HotFolderTest {
     std::ofstream(state() / "token.nc") << kGood;
   }
   fs::path state() const { return folder_.path() / "state"; }
+  mode_t mode(const fs::path& of) const {
+    struct stat facts {};
+    EXPECT_EQ(::lstat(of.c_str(), &facts), 0) << of;
+    return facts.st_mode & 07777;
+  }
   void expect_untouched() {
     EXPECT_EQ(store_->programs.count(), 0u);
     EXPECT_EQ(std::distance(fs::directory_iterator(state()), {}), 1) << "token.nc alone";
@@ -118,6 +123,27 @@ TEST_F(FolderAttackTest, AHardLinkIsRefused) {
   fs::create_hard_link(state() / "token.nc", path() / "O0200.nc");
   EXPECT_NE(refused("O0200.nc").find("a hard link"), std::string::npos);
   expect_untouched();
+}
+
+/// The server's own umask keeps everything of it to itself.
+TEST_F(FolderAttackTest, WhatBecameOfAFileIsReadableForThePeopleOfItsFolder) {
+  const mode_t before = ::umask(077);
+  struct Row {
+    mode_t hot, folder, reason;
+  };
+  for (const Row row : {Row{0770, 0770, 0660}, Row{0777, 0775, 0664}, Row{0755, 0755, 0644},
+                        Row{0700, 0700, 0600}, Row{02770, 02770, 0660}}) {
+    fs::remove_all(path());
+    fs::create_directory(path());
+    ASSERT_EQ(::chmod(path().c_str(), row.hot), 0);
+    make();
+    write("O0200.nc", kAlarm);
+    refused("O0200.nc");
+    EXPECT_EQ(mode(path() / "done"), row.folder) << std::oct << row.hot;
+    EXPECT_EQ(mode(path() / "failed"), row.folder) << std::oct << row.hot;
+    EXPECT_EQ(mode(path() / "failed" / "O0200.nc.reason.txt"), row.reason) << std::oct << row.hot;
+  }
+  ::umask(before);
 }
 
 TEST(AnswerWatch, KnowsForHowLongAnAnswerIsWaitedFor) {
