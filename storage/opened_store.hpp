@@ -62,6 +62,13 @@ class OpenedStore : public Store {
   /// False: another server may have it by now, because this one's place was not renewed in time.
   /// It asks the own clock alone, so that it answers at once.
   virtual bool has_place() const { return true; }
+  /// The server ends: its place is not renewed any more, so that no part of it that does not come
+  /// to its end keeps another server from it. What is still written may renew it. Any thread.
+  virtual void stop_renewing() {}
+  /// After that: another server may have the place at once, and this one stores and reads nothing
+  /// any more. It waits for the database for some seconds at most. Otherwise the destructor does
+  /// it.
+  virtual void give_back() {}
   /// For servers that wait, and for their clients. Errors: Io.
   virtual Result<void> publish(const ServerFacts&) { return {}; }
   /// Those that have asked for the place in the last seconds. Errors: Io.

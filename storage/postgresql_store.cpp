@@ -68,6 +68,14 @@ bool PostgresqlStore::has_place() const {
   return parts_->connections->has_place();
 }
 
+void PostgresqlStore::stop_renewing() {
+  parts_->connections->stop_renewing();
+}
+
+void PostgresqlStore::give_back() {
+  parts_->connections->give_back();
+}
+
 Result<void> PostgresqlStore::publish(const ServerFacts& facts) {
   return parts_->connections->publish(facts);
 }

@@ -68,6 +68,8 @@ class PostgresqlStore final : public OpenedStore {
   Result<std::string> identity() override;
   std::uint64_t term() const override;
   bool has_place() const override;
+  void stop_renewing() override;
+  void give_back() override;
   Result<void> publish(const ServerFacts& facts) override;
   Result<std::vector<WaitingServer>> waiting() override;
 

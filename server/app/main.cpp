@@ -26,7 +26,8 @@ namespace {
 
 constexpr int kFailed = 1;
 constexpr int kUnsafe = 2;
-constexpr unsigned kLongestEnd = 30;  ///< seconds
+constexpr unsigned kLongestEnd = 60;   ///< seconds; below TimeoutStopSec= of the unit
+constexpr unsigned kLongestLost = 30;  ///< likewise, of a server whose library is another one's
 
 int complain(const Error& error) {
   fmt::print(stderr, "dncd: {}\n", error.what);
@@ -167,6 +168,14 @@ Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
   }
 }
 
+/// The only place where the process ends in the middle: a thread is in the file system and cannot
+/// be ended, and uses what would be taken down. What was taken is stored or will be found again.
+[[noreturn]] void end_without(const Error& error) {
+  process::log_error("{}: the process ends without it", error.what);
+  spdlog::shutdown();
+  ::_exit(kFailed);
+}
+
 /// One server, from its start (or the wait for it) to its end.
 int take_turn(Turn& turn, const sigset_t& signals, const Clock& clock) {
   turn.is_over = true;
@@ -206,13 +215,15 @@ int take_turn(Turn& turn, const sigset_t& signals, const Clock& clock) {
   if (lost) {
     process::log_error("{}: the server ends", *lost);
     if (!turn.settings.log.empty()) fmt::print(stderr, "dncd: {}: the server ends\n", *lost);
-    ::alarm(kLongestEnd);  // an end that hangs is an end all the same
   }
+  ::alarm(lost ? kLongestLost : kLongestEnd);  // an end that hangs is an end all the same
   process::log_info("{}", end.is_handed_over() ? "handing over" : "stopping");
   turn.is_over = lost || !end.is_handed_over() || !turn.settings.standby;
   if (turn.is_over) process::notify_stopping();
   turn.handed_over = (*server)->term();
+  if (const auto ended = (*server)->end(); !ended) end_without(ended.error());
   server->reset();
+  ::alarm(0);
   process::log_info("stopped");
   return lost ? kFailed : 0;
 }

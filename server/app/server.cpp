@@ -11,6 +11,9 @@ namespace {
 constexpr auto kUploadLife = std::chrono::hours(24);
 /// Of the database, for damage; what a bigger one needs longer for is looked at beside the work.
 constexpr std::chrono::seconds kCheckBeforeStart{10};
+/// From the begin of the server's end on; what a hot folder takes then is stored by the next server
+/// otherwise.
+constexpr std::chrono::seconds kFolderEnd{5};
 
 /// The page is asked first: it needs no token.
 api::HttpHandlers http_handlers(const api::Api& api, const web::Page& page) {
@@ -45,6 +48,13 @@ void warn_of_authors(const library::ReleasePolicy& policy,
 Server::Server(std::unique_ptr<ServerParts> parts) : parts_(std::move(parts)) {}
 
 Server::~Server() {
+  if (!end()) static_cast<void>(parts_.release());
+}
+
+Result<void> Server::end() {
+  if (ended_) return *ended_;
+  const auto until = std::chrono::steady_clock::now() + kFolderEnd;
+  parts_->folders.request_end();
   parts_->check.request_stop();
   parts_->watch.reset();  // it may announce
   parts_->folder.withdraw();
@@ -62,6 +72,11 @@ Server::~Server() {
   parts_->ports.end();
   parts_->machine_service.end();
   parts_->late_writer.end();
+  parts_->store->stop_renewing();
+  // Last: a folder on a share that hangs is waited for in vain.
+  ended_ = parts_->folders.end(until);
+  if (!*ended_) parts_->store->give_back();
+  return *ended_;
 }
 
 Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock,
@@ -115,7 +130,6 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
     return fail(loaded_holds.error());
   parts.write_kept_audit();
   parts.imports.begin();
-  parts.folders.begin();
   parts.webhooks.begin();
   parts.measurements.begin();
   if (parts.retention) parts.retention->begin();
@@ -166,6 +180,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
       .url = parts.url, .dds_domain = settings.dds_domain, .dds_tag = settings.dds_tag};
   parts.announce();
   parts.publish();
+  parts.folders.begin();  // last: a start that fails waits for no share
   return server;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "protocol/base/clock.hpp"
@@ -24,7 +25,12 @@ class Server {
   static Result<std::unique_ptr<Server>> start(const Settings& settings, const Clock& clock,
                                                OnLost on_lost = {},
                                                std::function<void()> on_handed_over = {});
-  /// In order: accepts nothing, flushes storage, leaves DDS.
+  /// In order: accepts nothing, flushes storage, leaves DDS. A library that servers share is not
+  /// renewed from then on. Errors: Timeout (a hot folder does not answer: the library was given
+  /// back, nothing is stored any more, and the process is to end without another step, because the
+  /// folder's thread uses the server as long as that lives).
+  Result<void> end();
+  /// `end`, where it was not called; after its Timeout what the thread uses stays.
   ~Server();
 
   const std::string& url() const;
@@ -41,6 +47,7 @@ class Server {
  private:
   explicit Server(std::unique_ptr<ServerParts> parts);
   std::unique_ptr<ServerParts> parts_;
+  std::optional<Result<void>> ended_;
 };
 
 }  // namespace dripline::app

@@ -56,14 +56,25 @@ Result<std::unique_ptr<PostgresqlConnections>> PostgresqlConnections::open(
 
 PostgresqlConnections::~PostgresqlConnections() {
   if (!keeper_.joinable()) return;  // it was never opened
-  keeper_.request_stop();
+  stop_renewing();
   keeper_.join();
+  give_back();
+}
+
+void PostgresqlConnections::stop_renewing() {
+  is_ending_ = true;
+  keeper_.request_stop();
+}
+
+void PostgresqlConnections::give_back() {
+  stop_renewing();
   if (is_lost_) return;
   // When this fails the place ends by its time.
   static_cast<void>(write([this](sql::Database& database) -> Result<void> {
     place_.give_back(database);
     return {};
   }));
+  is_lost_ = true;
 }
 
 /// The place comes first: another server's tables are not migrated while it works. An empty
@@ -151,7 +162,7 @@ Error PostgresqlConnections::lost_error() const {
 /// stored any more.
 void PostgresqlConnections::lose_place() {
   if (is_lost_.exchange(true)) return;
-  if (options_.on_lost) options_.on_lost(lost_error());
+  if (options_.on_lost && !is_ending_) options_.on_lost(lost_error());
 }
 
 Result<void> PostgresqlConnections::check_place() const {

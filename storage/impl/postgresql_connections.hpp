@@ -46,6 +46,9 @@ class PostgresqlConnections final : public Connections {
   /// Whether no other server can have the place now: by this computer's clock, which runs on while
   /// the process is frozen, but not while a virtual machine is.
   bool has_place() const;
+  /// OpenedStore's. From then on `on_lost` is not called: the server ends.
+  void stop_renewing();
+  void give_back();
   /// Of this server, for those that wait.
   Result<void> publish(const ServerFacts& facts);
 
@@ -74,6 +77,7 @@ class PostgresqlConnections final : public Connections {
   PostgresqlPlace place_;
   std::atomic<bool> is_lost_ = false;                                 ///< the place; for good
   std::atomic<std::chrono::steady_clock::time_point> renewed_{};      ///< was begun to be, and was
+  std::atomic<bool> is_ending_ = false;                               ///< of the server
   std::atomic<std::chrono::steady_clock::time_point> place_until_{};  ///< at least
   ConnectionPool<Slot> writer_;
   ConnectionPool<Slot> readers_;

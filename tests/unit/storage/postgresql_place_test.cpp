@@ -351,6 +351,28 @@ TEST_F(PostgresqlPlaceTest, WhoLostThePlaceIsTold) {
       << "and gives nothing back that is another one's";
 }
 
+TEST_F(PostgresqlPlaceTest, WhoEndsGivesItBackAndStoresNothingMore) {
+  store_.reset();
+  std::atomic<int> calls = 0;
+  auto first = PostgresqlStore::open(
+      {.url = database_->url(), .on_lost = [&](const Error&) { ++calls; }}, clock_);
+  ASSERT_TRUE(first) << first.error().what;
+  (*first)->give_back();
+  const auto second = open_another("srv-2");
+  ASSERT_TRUE(second) << second.error().what;
+  EXPECT_FALSE((*first)->probe());
+  EXPECT_EQ(calls, 0) << "it ends already";
+  first->reset();
+  EXPECT_TRUE((*second)->probe());
+}
+
+/// A part of a server that ends may take longer than anyone waits.
+TEST_F(PostgresqlPlaceTest, WhoEndsDoesNotKeepItByRenewing) {
+  store_->stop_renewing();
+  EXPECT_TRUE(store_->identity()) << "until another one has it";
+  EXPECT_TRUE(test_support::eventually([&] { return open_another("srv-2").has_value(); }));
+}
+
 /// What the other one stored meanwhile is not what this one has in memory.
 TEST_F(PostgresqlPlaceTest, APlaceThatWasTakenAndGivenBackIsLostToo) {
   ASSERT_TRUE(store_->probe());
