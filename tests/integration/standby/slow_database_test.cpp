@@ -26,7 +26,7 @@ class SlowDatabase : public TwoServersTest {
   }
 };
 
-/// Some fourteen seconds of the line in one piece: longer than the lease.
+/// Some ten seconds of the line in one piece: longer than the lease.
 TEST_F(SlowDatabase, APushCostsTheActiveServerNotItsPlace) {
   begin({"--takeover-s", "6"});
   const auto before = term();
@@ -34,7 +34,7 @@ TEST_F(SlowDatabase, APushCostsTheActiveServerNotItsPlace) {
   for (auto& cable : cables_) cable->set_rate(kBytesPerSecond);
   std::atomic<bool> is_pushed = false;
   std::jthread pushing([&] {
-    shop_->push(0, "O0300", text_of(2 << 20));
+    shop_->push(0, "O0300", text_of(3 << 19));
     is_pushed = true;
   });
   bool is_kept = true;
