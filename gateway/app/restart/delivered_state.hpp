@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "gateway/app/restart/reached_heights.hpp"
 #include "gateway/interpreter/core/event.hpp"
 
 namespace dripline::gateway {
@@ -13,7 +14,7 @@ namespace dripline::gateway {
 struct DeliveredState {
   interpreter::Origin ended;       ///< the block whose end came last
   interpreter::Position position;  ///< commanded last; marks the axes that have moved
-  interpreter::Position highest;   ///< the greatest coordinate of each of them
+  ReachedHeights heights;
   interpreter::Spindle spindle;
   bool flood = false, mist = false;
   std::optional<int> tool, tool_offset, next_tool;
@@ -33,7 +34,7 @@ struct DeliveredState {
 /// For the state archive.
 template <class Archive>
 void visit(Archive& archive, DeliveredState& state) {
-  archive(state.ended, state.position, state.highest, state.spindle, state.flood, state.mist,
+  archive(state.ended, state.position, state.heights, state.spindle, state.flood, state.mist,
           state.tool, state.tool_offset, state.next_tool, state.tool_shape, state.feed,
           state.inhibit, state.codes, state.path);
   if (state.codes.size() > DeliveredState::kMaxCodes) archive.damage();

@@ -66,8 +66,6 @@ void EventTracker::close(DeliveredState state, std::uint64_t last, OnOpen on_ope
 
 void EventTracker::expect(Axis axis, double value) {
   state_.position.set_raw(axis, value);
-  if (!state_.highest.has(axis) || value > state_.highest.raw(axis))
-    state_.highest.set_raw(axis, value);
 }
 
 void EventTracker::measure(std::uint64_t block, const Position& at) {
@@ -84,13 +82,14 @@ void EventTracker::add(double value) {
 }
 
 /// A move names the axes that take part in it and those before it; the values of all count.
-void EventTracker::move_to(const interpreter::Origin& origin, const Position& to) {
+void EventTracker::move_to(const interpreter::Origin& origin, const Position& to,
+                           const std::optional<interpreter::PathArc>& arc) {
+  const ReachedHeights::Lengths lengths = lengths_ ? lengths_() : ReachedHeights::Lengths{};
+  arc ? state_.heights.move(to, *arc, lengths) : state_.heights.move(to, lengths);
   for (const Axis axis : kAllAxes) {
     if (!to.has(axis)) continue;
     const double value = to.raw(axis);
     add(value);
-    if (!state_.highest.has(axis) || value > state_.highest.raw(axis))
-      state_.highest.set_raw(axis, value);
     state_.position.set_raw(axis, value);
   }
   for (std::size_t i = 0; i < moves_.axes.size(); ++i) {
@@ -149,7 +148,9 @@ void EventTracker::on_arc(const interpreter::Arc& event) {
   add(event.center_second.mm());
   add(event.sweep.degrees());
   state_.feed = event.feed;
-  move_to(event.origin, event.to);
+  move_to(event.origin, event.to,
+          interpreter::PathArc{event.center_first, event.center_second, event.plane, event.turn,
+                               event.sweep});
   EventGate::on_arc(event);
 }
 
@@ -160,7 +161,7 @@ void EventTracker::on_thread(const interpreter::Thread& event) {
   measure_move(event.origin, event.to, length);
   add(kThread);
   add(event.lead.mm());
-  move_to(event.origin, event.to);
+  move_to(event.origin, event.to, event.arc);
   EventGate::on_thread(event);
 }
 
@@ -174,7 +175,7 @@ void EventTracker::on_probe(const interpreter::Probe& event) {
                            : distance(state_.position, at));
     add(kProbe);
     if (!event.is_rapid) state_.feed = event.feed;
-    move_to(event.origin, at);
+    move_to(event.origin, at, event.arc);
   }
   EventGate::on_probe(event);
 }

@@ -20,6 +20,15 @@ class EventTracker final : public interpreter::EventGate {
   explicit EventTracker(interpreter::EventSink& out)
       : EventGate(out), paths_(std::make_unique<Paths>()) {}
 
+  /// The axes are at `at` + `lengths`, and nothing was given yet.
+  void begin(const interpreter::Position& at, const machine::ToolLengths& lengths) {
+    state_.heights.begin(at, lengths);
+  }
+  /// Of a machine that adds the lengths of tools: asked for with every move.
+  void use_lengths(std::function<ReachedHeights::Lengths()> lengths) {
+    lengths_ = std::move(lengths);
+  }
+
   const DeliveredState& delivered() const { return state_; }
   /// The hash of the path when `block` ended; 0: not known any more.
   std::uint64_t path_at(std::uint64_t block) const {
@@ -110,7 +119,8 @@ class EventTracker final : public interpreter::EventGate {
   bool is_open() const override { return !is_closed_; }
   void add(double value);
   void add(std::uint64_t bits);
-  void move_to(const interpreter::Origin& origin, const interpreter::Position& to);
+  void move_to(const interpreter::Origin& origin, const interpreter::Position& to,
+               const std::optional<interpreter::PathArc>& arc = {});
   void measure_move(const interpreter::Origin& origin, const interpreter::Position& to,
                     double length);
   void note_code(int code);
@@ -125,6 +135,7 @@ class EventTracker final : public interpreter::EventGate {
   using Paths = std::array<PathOfBlock, kPaths>;
 
   DeliveredState state_;
+  std::function<ReachedHeights::Lengths()> lengths_;
   std::unique_ptr<Paths> paths_;
   double length_ = 0;
   Moves moves_;

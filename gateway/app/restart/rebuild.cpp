@@ -98,7 +98,7 @@ Rebuild::State Rebuild::tail() {
   if (step == Step::Failed) return State::Failed;
   if (step == Step::NeedsText) return State::NeedsText;
   if (step == Step::More) return State::Working;
-  highest_ = parts_.tracker.delivered().highest;
+  reached_ = parts_.tracker.delivered().heights;
   return parts_.plan.known_target() ? begin_route() : begin_search();
 }
 
@@ -305,7 +305,7 @@ Rebuild::State Rebuild::open() {
     if (step == Step::Failed) return State::Failed;
     if (step == Step::NeedsText) return State::NeedsText;
     if (parts_.interpreter.blocks() == target_) {
-      lengths_ = machine::axis_lengths_of(parts_.interpreter.modes());
+      note_lengths();
       report_.modes = parts_.interpreter.modes();
       report_.frame = parts_.interpreter.frame();
     }

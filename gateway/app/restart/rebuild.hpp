@@ -91,7 +91,9 @@ class Rebuild {
   std::string chain_fault() const;
   std::string place_fault() const;
   bool has_approach() const;
+  void note_lengths();
   machine::ToolLengths take_lengths();
+  interpreter::Position highest(interpreter::Axis up) const;
   void expect_unmoved(const machine::ToolLengths& lengths);
   Result<void> compare_ending() const;
 
@@ -112,10 +114,11 @@ class Rebuild {
   interpreter::StepState last_step_ = interpreter::StepState::Ran;
   std::optional<interpreter::Axis> tool_axis_;
   /// Of the last block that is not executed again.
-  std::optional<machine::ToolLengths> lengths_;
-  interpreter::Position highest_;  ///< up to the block executed last, for a place before it
-  std::string approach_fault_;     ///< why no approach was given to the machine
-  PassedPath passed_;              ///< of the tool, from some place before the target on
+  std::optional<ReachedHeights::Lengths> lengths_;
+  /// Up to the block executed last, for a place before it.
+  std::optional<ReachedHeights> reached_;
+  std::string approach_fault_;  ///< why no approach was given to the machine
+  PassedPath passed_;           ///< of the tool, from some place before the target on
   std::size_t route_steps_ = 0, preview_steps_ = 0;
   RestartReport report_;
 };

@@ -13,13 +13,22 @@ constexpr double kMoved = 0.05;         ///< more than axes move while they come
 
 }  // namespace
 
+void Rebuild::note_lengths() {
+  const interpreter::ActiveModes modes = parts_.interpreter.modes();
+  lengths_ = {.of_axes = machine::axis_lengths_of(modes), .of_tool = modes.lengths()};
+}
+
 /// From here on positions are those of the program, which leave its lengths out. Where the control
 /// has read ahead over another change of them, the approach is refused (AxisLengths).
 machine::ToolLengths Rebuild::take_lengths() {
-  if (!parts_.machine.capabilities().adds_lengths) return {};
-  if (parts_.interpreter.origin().block <= target_)
-    lengths_ = machine::axis_lengths_of(parts_.interpreter.modes());
-  const machine::ToolLengths lengths = lengths_.value_or(parts_.machine.status().lengths);
+  if (!parts_.machine.capabilities().adds_lengths) {
+    lengths_.emplace();
+    return {};
+  }
+  if (parts_.interpreter.origin().block <= target_) note_lengths();
+  const machine::ToolLengths present = parts_.machine.status().lengths;
+  if (!lengths_) lengths_ = {.of_axes = present, .of_tool = present};
+  const machine::ToolLengths lengths = lengths_->of_axes;
   report_.machine = machine::minus(report_.machine, lengths);
   if (report_.stopped_at) report_.stopped_at = machine::minus(*report_.stopped_at, lengths);
   parts_.begin_lengths(report_.machine, lengths);
@@ -35,6 +44,16 @@ void Rebuild::expect_unmoved(const machine::ToolLengths& lengths) {
     if (is_there || parts_.tracker.delivered().position.has(axis)) continue;
     parts_.tracker.expect(axis, begun.raw(axis));
   }
+}
+
+/// The highest place along the tool axis where the run has been, also after the place.
+interpreter::Position Rebuild::highest(interpreter::Axis up) const {
+  interpreter::Position highest;
+  auto value = parts_.tracker.delivered().heights.highest(up, *lengths_);
+  const auto later = reached_ ? reached_->highest(up, *lengths_) : std::nullopt;
+  if (later && (!value || *later > *value)) value = later;
+  if (value) highest.set_raw(up, *value);
+  return highest;
 }
 
 void Rebuild::on_open(interpreter::EventSink& out) {
@@ -56,11 +75,7 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   approach.tool_axis = tool_axis_.value_or(interpreter::Axis::Z);
   approach.from = report_.machine;
   approach.to = report_.delivered.position;
-  approach.highest = report_.delivered.highest;
-  const interpreter::Axis up = approach.tool_axis;
-  const bool is_higher = highest_.has(up) &&
-                         (!approach.highest.has(up) || highest_.raw(up) > approach.highest.raw(up));
-  if (is_higher) approach.highest.set_raw(up, highest_.raw(up));
+  approach.highest = highest(approach.tool_axis);
   approach.feed = report_.delivered.feed;
   approach.spindle_turns = report_.delivered.spindle.state != interpreter::SpindleState::Off;
   report_.approach = approach.plan();

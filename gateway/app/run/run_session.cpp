@@ -131,6 +131,14 @@ RunSession::RunSession(Parts parts, const interpreter::Dialect& dialect,
       tracker_(front_of(dry_run_, parts_.dry_run, parts_.at, events_)),
       tool_history_(dialect.length_shifts_position) {
   events_.begin(parts_.at, parts_.lengths);
+  tracker_.begin(parts_.at, parts_.lengths);
+  if (parts_.machine.capabilities().adds_lengths) {
+    tracker_.use_lengths([this] {
+      const interpreter::ActiveModes modes = interpreter_->modes();
+      return ReachedHeights::Lengths{machine::axis_lengths_of(modes), modes.lengths(),
+                                     dialect_.length_shifts_position};
+    });
+  }
   if (parts_.checkpoints != nullptr)
     checkpoints_.emplace(parts_.run.run, *parts_.checkpoints, parts_.clock);
 }

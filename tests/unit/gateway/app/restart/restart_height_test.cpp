@@ -1,0 +1,61 @@
+// How high the approach of a restart goes, and what the height is taken from.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gateway/interpreter/core/dialects.hpp"
+#include "tests/unit/gateway/app/restart/restart_fixture.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A simulated mill whose runs begin at Z50.
+class ApproachHeight : public testing::Test {
+ protected:
+  explicit ApproachHeight(double height = 50) {
+    interpreter::Setup setup;
+    setup.start.set(interpreter::Axis::Z, Length::mm(height));
+    shop.emplace(interpreter::kFanucDialect, setup, "20x");
+  }
+  /// Aborts it at its stop.
+  void abort_at_stop(const std::string& text) {
+    shop->push("P", text);
+    shop->restart_gateway();
+    ASSERT_TRUE(shop->start_program("P").accepted);
+    run = shop->last_run();
+    ASSERT_TRUE(shop->run_until(
+        [&] { return shop->status && shop->status->execution == dds::Execution::ProgramStopped; }));
+    ASSERT_TRUE(shop->send(shop->command(dds::CommandAction::Abort)).accepted);
+    ASSERT_TRUE(shop->run_on());
+  }
+  Json restart(const std::string& at) { return shop->begin_restart("P", run, at); }
+
+  std::optional<RestartFixture> shop;
+  std::string run;
+};
+
+/// The retraction at the program's head moves nothing.
+TEST_F(ApproachHeight, IsThatWhereTheRunBegan) {
+  abort_at_stop(
+      "O0200\nG21 G90\nM03 S1000\nG00 Z50.\nX0 Y0\nG01 Z-5. F900\nN40 X60.\nY60.\nM00\n"
+      "X0\nY0\nG00 Z50.\nM30\n");
+  const auto report = restart("N40");
+  ASSERT_TRUE(report.is_object()) << shop->start_answer.reason << shop->last_end().reason;
+  EXPECT_EQ(report["position"], (Json{{"X", 60}, {"Y", 60}, {"Z", -5}}));
+  EXPECT_EQ(report["approach"][0]["to"], (Json{{"Z", 50}})) << report["approach"];
+  EXPECT_EQ(report["approach"][1]["to"], (Json{{"X", 0}, {"Y", 0}}));
+}
+
+/// Its ends are in the groove, and its middle is above the part.
+TEST_F(ApproachHeight, IsThatOfTheTopOfAnArc) {
+  abort_at_stop(
+      "O0201\nG21 G90 G00 X0 Y0 Z-5.\nN40 G01 X10. F900\nG18 G03 X130. I60. K0\nG17 "
+      "G01 Z-6.\nM00\nX150.\nM30\n");
+  const auto report = restart("N40");
+  ASSERT_TRUE(report.is_object()) << shop->start_answer.reason << shop->last_end().reason;
+  EXPECT_EQ(report["approach"][0]["to"], (Json{{"Z", 55}})) << report["approach"];
+}
+
+}  // namespace
+}  // namespace dripline::gateway
