@@ -121,7 +121,11 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
     setup->start.unmark_all();
   }
   Conditions conditions = is_restart ? (*restart)->conditions : conditions_of(origin);
-  if (is_restart) conditions.restart_of = origin.from.restart->run;
+  if (is_restart) {
+    conditions.restart_of = origin.from.restart->run;
+  } else {
+    conditions.begun_at = axes;  // also where the machine is only now placed there
+  }
   if (auto done = check_reader(parts_.machine.capabilities().reader, parts_.dialect, *setup); !done)
     return done;
   auto check = check_of(axes, tests, is_restart);

@@ -57,5 +57,26 @@ TEST_F(ApproachHeight, IsThatOfTheTopOfAnArc) {
   EXPECT_EQ(report["approach"][0]["to"], (Json{{"Z", 55}})) << report["approach"];
 }
 
+/// The simulated machine is placed when the run begins, and not where it was before.
+TEST_F(ApproachHeight, IsNotThatBeforeTheRun) {
+  shop->push("Q", "O0203\nG21 G90 G00 X0 Y-25. Z90.\nM30\n");
+  shop->restart_gateway();
+  ASSERT_TRUE(shop->start_program("Q").accepted);
+  ASSERT_TRUE(shop->run_on());
+  ASSERT_EQ(shop->last_end().outcome, dds::RunOutcome::Completed);
+  shop->push("P", "O0202\nG21 G90 M03 S900\nG01 Z-5. F900\nN40 X60.\nM00\nX80.\nM30\n");
+  ASSERT_TRUE(shop->start_program("P").accepted);
+  run = shop->last_run();
+  ASSERT_TRUE(shop->run_until(
+      [&] { return shop->status && shop->status->execution == dds::Execution::ProgramStopped; }));
+  EXPECT_EQ(shop->status->position[1], 0);
+  ASSERT_TRUE(shop->send(shop->command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop->run_on());
+  const auto report = restart("N40");
+  ASSERT_TRUE(report.is_object()) << shop->start_answer.reason << shop->last_end().reason;
+  EXPECT_EQ(report["continues_at"].value("Y", 0.0), 0) << "the cut was at Y0";
+  EXPECT_EQ(report["approach"][0]["to"], (Json{{"Z", 50}})) << report["approach"];
+}
+
 }  // namespace
 }  // namespace dripline::gateway
