@@ -34,6 +34,18 @@ bool Approach::differs(Axis axis) const {
   return to.has(axis) && std::fabs(to.raw(axis) - from.raw(axis)) > kSame;
 }
 
+/// Out of the cut along the tool that is in it. Another one may have another axis.
+void Approach::add_retracts(Plan& plan) const {
+  const auto add = [&](Axis axis, double height) {
+    if (height - from.raw(axis) <= kSame) return;
+    plan.before.push_back({along(axis, height), {}});
+    ++plan.retracts;
+  };
+  const bool has_other_axis = spindle_axis && *spindle_axis != tool_axis;
+  if (has_other_axis && highest.has(*spindle_axis)) add(*spindle_axis, highest.raw(*spindle_axis));
+  if (to.has(tool_axis)) add(tool_axis, plan.clearance);
+}
+
 Approach::Plan Approach::plan() const {
   if (is_lathe) return lathe_plan();
   Plan plan;
@@ -50,9 +62,9 @@ Approach::Plan Approach::plan() const {
     is_elsewhere |= differs(axis);
   }
   const bool is_there = !is_elsewhere && std::fabs(target - now) <= kSame;
-  if (is_there) return plan;
-  if (has_tool_axis && plan.clearance - now > kSame)
-    plan.before.push_back({along(tool_axis, plan.clearance), {}});
+  if (is_there && !changes_tool) return plan;
+  add_retracts(plan);
+  is_elsewhere |= spindle_axis && *spindle_axis != tool_axis && plan.retracts > 0;
   if (is_elsewhere) plan.before.push_back({others, {}});
   if (!has_tool_axis || plan.clearance - target <= kSame) return plan;
   if (plan.clearance - target > kPlunge)
@@ -71,9 +83,10 @@ void write_approach(const Approach::Plan& plan, const DeliveredState& state,
     if (one.feed) return out.on_line({origin, one.to, *one.feed, true});
     out.on_rapid({origin, one.to, true});
   };
+  for (std::size_t i = 0; i < plan.retracts; ++i) move(plan.before[i]);
   if (state.tool) out.on_tool({origin, *state.tool, false, state.tool_offset, state.tool_shape});
   if (state.next_tool) out.on_tool({origin, *state.next_tool, true, {}, {}});
-  for (const ApproachMove& one : plan.before) move(one);
+  for (std::size_t i = plan.retracts; i < plan.before.size(); ++i) move(plan.before[i]);
   if (state.spindle.state != interpreter::SpindleState::Off) {
     interpreter::Spindle spindle = state.spindle;
     spindle.origin = origin;

@@ -18,8 +18,9 @@ struct ApproachMove {
 
 /// From where the axes are to where the program continues. The safe default for controls whose
 /// manuals have none of their own: along the tool axis to the clearance, which is the highest place
-/// where the program or the machine has been; the other axes; spindle and coolant; down again,
-/// rapidly to kPlunge above the place, the rest at the feed of the program.
+/// where the program or the machine has been; the tool, if it is another one than that in the
+/// spindle; the other axes; spindle and coolant; down again, rapidly to kPlunge above the place,
+/// the rest at the feed of the program.
 ///
 /// A lathe has no such place: in front of the part is beyond a wall for a tool in a groove. Its
 /// tool goes back where it has been (lathe_approach.cpp), or the operator brings it to the place.
@@ -31,6 +32,8 @@ struct Approach {
   interpreter::Position highest;
   std::optional<Feed> feed;  ///< of the program, if it has had one
   bool spindle_turns = false;
+  bool changes_tool = false;
+  std::optional<interpreter::Axis> spindle_axis = {};  ///< of the tool that is in the spindle
   // Of a lathe.
   const PassedPath* passed = nullptr;                    ///< null: not known
   std::optional<interpreter::Position> stopped_at = {};  ///< where the run came to rest
@@ -38,8 +41,9 @@ struct Approach {
   struct Plan {
     std::vector<ApproachMove> before;  ///< the spindle is switched on after these
     std::vector<ApproachMove> after;
-    double clearance = 0;  ///< of the tool axis, millimeters
-    std::string fault;     ///< why there is none, and what to do; empty: there is one
+    std::size_t retracts = 0;  ///< of `before`: with the tool that is in the spindle
+    double clearance = 0;      ///< of the tool axis, millimeters
+    std::string fault;         ///< why there is none, and what to do; empty: there is one
   };
   Plan plan() const;
 
@@ -51,6 +55,7 @@ struct Approach {
   bool differs(interpreter::Axis axis) const;
   Plan lathe_plan() const;
   bool is_beyond_all() const;
+  void add_retracts(Plan& plan) const;
   bool add_passed(Plan& plan) const;
   bool add_from_outside(Plan& plan) const;
   bool add_straight(Plan& plan) const;
@@ -58,8 +63,8 @@ struct Approach {
   std::string lathe_fault(bool are_others_elsewhere) const;
 };
 
-/// What a restart gives to the machine before the program's own events: tool, the moves, spindle
-/// and coolant, and what the program had inhibited.
+/// What a restart gives to the machine before the program's own events: the moves, after the first
+/// ones of them the tool, spindle and coolant, and what the program had inhibited.
 void write_approach(const Approach::Plan& plan, const DeliveredState& state,
                     const interpreter::Origin& origin, interpreter::EventSink& out);
 

@@ -34,6 +34,9 @@ Rebuild::Rebuild(Parts parts) : parts_(std::move(parts)) {
   report_.on_record = parts_.plan.on_record;
   report_.machine = parts_.machine.status().axes();
   report_.stopped_at = parts_.plan.ending.stopped_at;
+  const machine::MachineStatus status = parts_.machine.status();
+  in_spindle_.tool = status.tool;
+  in_spindle_.lengths = {.of_axes = status.lengths, .of_tool = status.lengths};
 }
 
 Rebuild::State Rebuild::fail_with(std::string fault) {
@@ -99,6 +102,7 @@ Rebuild::State Rebuild::tail() {
   if (step == Step::NeedsText) return State::NeedsText;
   if (step == Step::More) return State::Working;
   reached_ = parts_.tracker.delivered().heights;
+  note_spindle();
   return parts_.plan.known_target() ? begin_route() : begin_search();
 }
 

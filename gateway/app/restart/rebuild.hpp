@@ -91,6 +91,8 @@ class Rebuild {
   std::string chain_fault() const;
   std::string place_fault() const;
   bool has_approach() const;
+  void note_spindle();
+  void compare_tools();
   void note_lengths();
   machine::ToolLengths take_lengths();
   interpreter::Position highest(interpreter::Axis up) const;
@@ -117,6 +119,14 @@ class Rebuild {
   std::optional<ReachedHeights::Lengths> lengths_;
   /// Up to the block executed last, for a place before it.
   std::optional<ReachedHeights> reached_;
+  /// The tool in the spindle: as the machine has it, else as the program left it.
+  struct InSpindle {
+    std::optional<int> tool;
+    ReachedHeights::Lengths lengths;
+    std::optional<interpreter::Axis> axis;
+  };
+  InSpindle in_spindle_;
+  bool changes_tool_ = false;
   std::string approach_fault_;  ///< why no approach was given to the machine
   PassedPath passed_;           ///< of the tool, from some place before the target on
   std::size_t route_steps_ = 0, preview_steps_ = 0;

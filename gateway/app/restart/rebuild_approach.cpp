@@ -13,6 +13,29 @@ constexpr double kMoved = 0.05;         ///< more than axes move while they come
 
 }  // namespace
 
+/// As the run has left it, after the block executed last.
+void Rebuild::note_spindle() {
+  const interpreter::ActiveModes modes = parts_.interpreter.modes();
+  const std::optional<int> tool = parts_.tracker.delivered().tool;
+  if (in_spindle_.tool && in_spindle_.tool != tool) return;  // changed since
+  in_spindle_.axis = modes.tool_axis;
+  if (!parts_.machine.capabilities().adds_lengths) return;
+  if (!in_spindle_.tool) in_spindle_.lengths.of_axes = machine::axis_lengths_of(modes);
+  in_spindle_.tool = tool;
+  in_spindle_.lengths.of_tool = modes.lengths();
+}
+
+/// Another tool is put in after the retraction, and up to there the axes are at the program's
+/// position + the length of the one that is in the spindle.
+void Rebuild::compare_tools() {
+  const std::optional<int> tool = parts_.tracker.delivered().tool;
+  changes_tool_ = tool && in_spindle_.tool && tool != in_spindle_.tool;
+  if (!changes_tool_) return;
+  report_.tool_to_change = tool;
+  for (std::size_t i = 0; i < report_.length_change.size(); ++i)
+    report_.length_change[i] = lengths_->of_axes[i] - in_spindle_.lengths.of_axes[i];
+}
+
 void Rebuild::note_lengths() {
   const interpreter::ActiveModes modes = parts_.interpreter.modes();
   lengths_ = {.of_axes = machine::axis_lengths_of(modes), .of_tool = modes.lengths()};
@@ -49,16 +72,25 @@ void Rebuild::expect_unmoved(const machine::ToolLengths& lengths) {
 /// The highest place along the tool axis where the run has been, also after the place.
 interpreter::Position Rebuild::highest(interpreter::Axis up) const {
   interpreter::Position highest;
-  auto value = parts_.tracker.delivered().heights.highest(up, *lengths_);
-  const auto later = reached_ ? reached_->highest(up, *lengths_) : std::nullopt;
-  if (later && (!value || *later > *value)) value = later;
-  if (value) highest.set_raw(up, *value);
+  const auto add = [&](const ReachedHeights& heights, const machine::ToolLengths& tool) {
+    const auto value = heights.highest(up, {.of_axes = lengths_->of_axes, .of_tool = tool});
+    if (value && !(highest.has(up) && highest.raw(up) >= *value)) highest.set_raw(up, *value);
+  };
+  for (const auto* heights :
+       {&parts_.tracker.delivered().heights, reached_ ? &*reached_ : nullptr}) {
+    if (heights == nullptr) continue;
+    add(*heights, lengths_->of_tool);
+    if (changes_tool_) add(*heights, in_spindle_.lengths.of_tool);
+  }
   return highest;
 }
 
 void Rebuild::on_open(interpreter::EventSink& out) {
   const machine::ToolLengths lengths = take_lengths();
-  if (!parts_.tracker.has_ended()) expect_unmoved(lengths);
+  if (!parts_.tracker.has_ended()) {
+    expect_unmoved(lengths);
+    compare_tools();
+  }
   report_.delivered = parts_.tracker.delivered();
   report_.after = parts_.tracker.delivered().ended;
   report_.has_ended = parts_.tracker.has_ended();
@@ -76,6 +108,13 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   approach.from = report_.machine;
   approach.to = report_.delivered.position;
   approach.highest = highest(approach.tool_axis);
+  approach.changes_tool = changes_tool_;
+  if (changes_tool_ && in_spindle_.axis && in_spindle_.axis != approach.tool_axis) {
+    approach.spindle_axis = in_spindle_.axis;
+    const interpreter::Axis old_axis = *in_spindle_.axis;
+    if (const auto other = highest(old_axis); other.has(old_axis))
+      approach.highest.set_raw(old_axis, other.raw(old_axis));
+  }
   approach.feed = report_.delivered.feed;
   approach.spindle_turns = report_.delivered.spindle.state != interpreter::SpindleState::Off;
   report_.approach = approach.plan();

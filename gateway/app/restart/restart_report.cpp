@@ -50,7 +50,13 @@ Json feed_json(const Feed& feed) {
   return {{is_minute ? "mm_per_min" : "mm_per_rev", rounded(feed.length().mm())}};
 }
 
-Json moves_json(const Approach::Plan& plan) {
+/// As the tool counts it that is in the spindle before another one is put in.
+Position in_spindle(const RestartReport& report, const Position& position) {
+  return machine::plus(position, report.length_change);
+}
+
+Json moves_json(const RestartReport& report) {
+  const Approach::Plan& plan = report.approach;
   Json moves = Json::array();
   const auto add = [&moves](const ApproachMove& move) {
     Json json{{"move", move.arc    ? "arc"
@@ -60,7 +66,14 @@ Json moves_json(const Approach::Plan& plan) {
     if (move.feed) json["feed"] = feed_json(*move.feed);
     moves.push_back(std::move(json));
   };
-  for (const ApproachMove& move : plan.before) add(move);
+  for (std::size_t i = 0; i <= plan.before.size(); ++i) {
+    if (i == plan.retracts && report.tool_to_change)
+      moves.push_back({{"move", "change_tool"}, {"tool", *report.tool_to_change}});
+    if (i == plan.before.size()) break;
+    ApproachMove move = plan.before[i];
+    if (i < plan.retracts) move.to = in_spindle(report, move.to);
+    add(move);
+  }
   moves.push_back({{"move", "switch_on"}});
   for (const ApproachMove& move : plan.after) add(move);
   return moves;
@@ -151,13 +164,15 @@ std::string to_json(const RestartReport& report) {
   json["tool"] = tool_json(report);
   json["modes"] = modes_json(report);
   json["not_repeated"] = codes_json(report.delivered.codes);
-  json["position"] = axes_json(only(report.machine, report.delivered.position));
+  json["position"] = axes_json(only(in_spindle(report, report.machine), report.delivered.position));
   json["continues_at"] = axes_json(report.delivered.position);
   json["program_has_ended"] = report.has_ended;
-  json["approach"] = report.has_ended ? Json::array() : moves_json(report.approach);
+  json["approach"] = report.has_ended ? Json::array() : moves_json(report);
   json["approach_by"] = "default";
   json["stopped_at"] =
-      report.stopped_at ? axes_json(only(*report.stopped_at, report.delivered.position)) : Json();
+      report.stopped_at
+          ? axes_json(only(in_spindle(report, *report.stopped_at), report.delivered.position))
+          : Json();
   Json next = origin_json(report.next.block, report.next.line, report.next.sequence);
   next["length_mm"] = report.next.has_ended ? Json(rounded(report.next.length)) : Json();
   next["left_mm"] = report.next.left ? Json(rounded(*report.next.left)) : Json();

@@ -33,6 +33,10 @@ struct RestartReport {
   std::optional<interpreter::CoordinateFrame> frame;
   interpreter::Position machine;  ///< where the axes are
   Approach::Plan approach;
+  /// Put in after the retraction; nothing: the one in the spindle, as far as that is known.
+  std::optional<int> tool_to_change;
+  /// The lengths of that tool, less those of the one in the spindle.
+  machine::ToolLengths length_change{};
   std::optional<interpreter::Position> stopped_at;  ///< where the original run came to rest
   EventTracker::Measured next;                      ///< the block that continues
 };

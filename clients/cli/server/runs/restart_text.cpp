@@ -93,6 +93,8 @@ std::string offsets_text(const Json& modes) {
 std::string move_text(const Json& move) {
   const auto kind = move.at("move").get<std::string>();
   if (kind == "switch_on") return "spindle and coolant on";
+  if (kind == "change_tool")
+    return fmt::format("change to tool {}", move.at("tool").get<std::int64_t>());
   std::string text = kind + " to";
   for (const auto& [axis, value] : move.at("to").items())
     text += fmt::format(" {}{:.3f}", axis, value.get<double>());

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/app/restart/reached_heights.hpp"
+#include "gateway/app/restart/approach.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -99,6 +99,39 @@ INSTANTIATE_TEST_SUITE_P(
                     ArcCase{"round_from_below", Turn::Counterclockwise, 6, 8, 306.8698976, 10},
                     ArcCase{"whole", Turn::Counterclockwise, 10, 0, 360, 10}),
     [](const auto& i) { return std::string{i.param.name}; });
+
+Approach flat() {
+  Approach approach;
+  approach.from = xz(10, 5);
+  approach.to = xz(0, 5);
+  approach.highest = z(5);
+  return approach;
+}
+
+TEST(ApproachHeights, RetractsBeforeAnotherToolAlsoAtThePlace) {
+  Approach approach = flat();
+  approach.highest = z(50);
+  approach.from = approach.to;
+  EXPECT_TRUE(approach.plan().before.empty());
+  approach.changes_tool = true;
+  const auto plan = approach.plan();
+  EXPECT_EQ(plan.retracts, 1u);
+  EXPECT_EQ(plan.before.at(0).to, z(50));
+  EXPECT_EQ(plan.after.back().to, z(5));
+}
+
+/// A tool in an angle head leaves the part along its own axis.
+TEST(ApproachHeights, RetractsAlongTheToolThatIsInTheSpindle) {
+  Approach approach = flat();
+  approach.highest = xz(80, 50);
+  approach.changes_tool = true;
+  approach.spindle_axis = Axis::X;
+  const auto plan = approach.plan();
+  ASSERT_EQ(plan.retracts, 2u);
+  EXPECT_EQ(plan.before[0].to.raw(Axis::X), 80);
+  EXPECT_EQ(plan.before[1].to, z(50));
+  EXPECT_EQ(plan.before.at(2).to.raw(Axis::X), 0);
+}
 
 }  // namespace
 }  // namespace dripline::gateway
