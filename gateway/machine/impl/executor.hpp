@@ -28,6 +28,8 @@ class Motion {
   /// `move` must stay where it is until stop().
   void start(const Move& move, double entry, const MotionGoal& goal);
   void change(const MotionGoal& goal);
+  /// The axes rest at the distance reached.
+  void rest();
   void stop() { move_ = nullptr; }
 
   double left() const { return profile_.duration() - time_; }
@@ -110,6 +112,8 @@ class Executor {
  private:
   double pass(double by, std::size_t max_actions);
   bool is_driven_by_hand() const;
+  bool rests_by_hand() const;
+  void leave_handwheel();
   bool pass_dwell(double by, double& used);
   bool may_start() const;
   bool continues_regardless() const;

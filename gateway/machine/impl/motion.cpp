@@ -16,6 +16,11 @@ void Motion::change(const MotionGoal& goal) {
   plan(now, goal);
 }
 
+void Motion::rest() {
+  begun_at_ = std::min(distance(), move_->path.length);
+  plan(0, {});
+}
+
 void Motion::plan(double entry, const MotionGoal& goal) {
   time_ = 0;
   profile_ = Profile({.length = move_->path.length - begun_at_,

@@ -33,14 +33,29 @@ bool Executor::is_driven_by_hand() const {
   return panel_.handwheel && !is_held_ && !is_aborting_ && (!lock_.is_tapping || skips_tap_);
 }
 
+bool Executor::rests_by_hand() const {
+  return is_driven_by_hand() && handwheel_seconds_ == 0;
+}
+
+/// From here on the machine's own time passes. Where the handwheel rests, so do the axes: the
+/// program's speed at this place is none of theirs, so nothing brakes or is executed to its end.
+void Executor::leave_handwheel() {
+  if (!is_jogging_ && rests_by_hand()) {
+    if (motion_.is_active()) motion_.rest();
+    speed_ = 0;
+  }
+  handwheel_seconds_ = 0;
+}
+
+/// During a hold or an abort it moves nothing, later neither.
 void Executor::turn_handwheel(double seconds) {
-  if (!panel_.handwheel || is_over()) return;
+  if (!panel_.handwheel || is_over() || is_held_ || is_aborting_) return;
   handwheel_seconds_ = std::clamp(handwheel_seconds_ + seconds, 0.0, kMaxHandwheelSeconds);
 }
 
 bool Executor::is_moving() const {
   if (is_jogging_) return true;
-  return speed() > 0 && !(is_driven_by_hand() && handwheel_seconds_ == 0);
+  return speed() > 0 && !rests_by_hand();
 }
 
 /// During a requested hold: whether an action under `lock` is executed nevertheless.
@@ -93,6 +108,7 @@ void Executor::set_panel(const OperatorPanel& panel) {
   const OperatorPanel next = panel.clamped();
   if (next == panel_) return;
   const bool is_pressed = next.emergency_stop && !panel_.emergency_stop;
+  if (panel_.handwheel && (is_pressed || !next.handwheel)) leave_handwheel();
   panel_ = next;
   if (is_jogging_ && (panel_.emergency_stop || panel_.feed_override == 0)) stop_jog();
   if (is_pressed) press_emergency_stop();
@@ -100,7 +116,6 @@ void Executor::set_panel(const OperatorPanel& panel) {
     withheld_spindle_ = spindle_.programmed();
     stop_spindle();
   }
-  if (!panel_.handwheel) handwheel_seconds_ = 0;
   planner_.invalidate();
   plan_motion_again();
   if (may_discard() && speed() == 0) discard();
@@ -137,8 +152,10 @@ void Executor::press_emergency_stop() {
 void Executor::hold() {
   if (is_jogging_) return stop_jog();
   if (is_held_ || is_over()) return;
+  const bool rests = rests_by_hand();
+  leave_handwheel();
   is_held_ = true;
-  hold_waits_ = lock_.hold == FeedHoldInhibit::Later;
+  hold_waits_ = lock_.hold == FeedHoldInhibit::Later && !rests;
   plan_motion_again();
 }
 
@@ -155,6 +172,7 @@ bool Executor::resume() {
 void Executor::abort() {
   if (is_jogging_) return stop_jog();
   if (is_aborting_ || is_over()) return;
+  leave_handwheel();
   is_aborting_ = true;
   if (speed() > 0)
     plan_motion_again();

@@ -163,7 +163,7 @@ TEST(EmergencyStop, BrakesWhatTheHandwheelDrives) {
   test.machine.set_panel(panel);
   test.program.line(0, 100, 1200);
   test.machine.turn_handwheel(Seconds{1});
-  test.run_all();
+  test.machine.poll(Seconds{0.5});
   set_emergency_stop(test, true);
   EXPECT_NEAR(test.run_all(), 0.02, 1e-9);
   test.machine.turn_handwheel(Seconds{1});

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <functional>
+#include <vector>
 
 #include "gateway/interpreter/core/event.hpp"
 #include "tests/unit/gateway/machine/test_machine.hpp"
@@ -101,6 +103,92 @@ TEST(Handwheel, AtRestStillLetsAHoldAndAnAbortEnd) {
     EXPECT_EQ(test.machine.state(), aborts ? MachineState::Aborted : MachineState::Held);
     EXPECT_FALSE(test.machine.is_moving());
   }
+}
+
+/// Turned for half a second of a move at 20 mm/s; since then the axes rest.
+void rest_in_move(TestMachine& test) {
+  test.machine.set_panel(by_handwheel());
+  test.program.line(0, 100, 1200);
+  test.program.line(50, 100, 1200);
+  test.machine.turn_handwheel(Seconds{0.5});
+  test.run_all();
+}
+
+TEST(Handwheel, AxesThatRestStayAtRestInAHoldAnAbortAndAnEmergencyStop) {
+  OperatorPanel pressed = by_handwheel();
+  pressed.emergency_stop = true;
+  const std::vector<std::function<void(SimulatedMachine&)>> stops{
+      [](auto& machine) { machine.hold(); }, [](auto& machine) { machine.abort(); },
+      [&](auto& machine) { machine.set_panel(pressed); }};
+  for (std::size_t stop = 0; stop < stops.size(); ++stop) {
+    TestMachine test;
+    rest_in_move(test);
+    const double z = test.z();
+    stops[stop](test.machine);
+    EXPECT_FALSE(test.machine.is_moving()) << stop;
+    EXPECT_EQ(test.machine.status().feed_per_minute, 0) << stop;
+    test.machine.turn_handwheel(Seconds{1});
+    test.run_all();
+    EXPECT_EQ(test.z(), z) << stop;
+  }
+}
+
+/// The wheel rests exactly between two moves that are passed without a stop.
+TEST(Handwheel, AHoldBetweenTwoMovesBeginsNeither) {
+  TestMachine test;
+  test.machine.set_panel(by_handwheel());
+  test.program.line(0, 10, 1200);
+  test.program.line(0, 100, 1200);
+  test.machine.turn_handwheel(Seconds{10.0 / 20 + 0.01});
+  test.run_all();
+  ASSERT_NEAR(test.z(), 10, 1e-9);
+  test.machine.hold();
+  test.run_all();
+  EXPECT_NEAR(test.z(), 10, 1e-9);
+  EXPECT_EQ(test.machine.state(), MachineState::Held);
+}
+
+TEST(Handwheel, AMoveThatCannotBeHeldIsNotExecutedFromRest) {
+  TestMachine test;
+  test.machine.set_panel(by_handwheel());
+  test.program.lock({.origin = {}, .hold = interpreter::FeedHoldInhibit::Later});
+  test.program.line(0, 100, 1200);
+  test.machine.turn_handwheel(Seconds{0.5});
+  test.run_all();
+  const double z = test.z();
+  test.machine.hold();
+  test.run_all();
+  EXPECT_EQ(test.z(), z);
+  EXPECT_EQ(test.machine.state(), MachineState::Held);
+}
+
+/// What was turned before the hold, or in it, moves nothing after the resume.
+TEST(Handwheel, AHoldDropsWhatWasTurned) {
+  TestMachine test;
+  test.machine.set_panel(by_handwheel());
+  test.program.line(0, 100, 1200);
+  test.machine.turn_handwheel(Seconds{4});
+  test.machine.poll(Seconds{1});
+  test.machine.hold();
+  test.machine.turn_handwheel(Seconds{1});
+  test.run_all();
+  const double z = test.z();
+  EXPECT_NEAR(z, 20, 1e-9) << "it brakes from the speed of the wheel";
+  ASSERT_TRUE(test.machine.resume());
+  test.run_all();
+  EXPECT_EQ(test.z(), z);
+  test.machine.turn_handwheel(Seconds{100});
+  test.run_all();
+  EXPECT_EQ(test.z(), 100);
+}
+
+TEST(Handwheel, TheProgramContinuesByItselfFromRest) {
+  TestMachine test;
+  rest_in_move(test);
+  const double z = test.z();
+  test.machine.set_panel({});
+  test.machine.poll(Seconds{0.1});
+  EXPECT_LT(test.z(), z + 20 * 0.1 - 0.1) << "it accelerates";
 }
 
 TEST(Handwheel, LeavesATappingCycleOutAndSaysSo) {
