@@ -31,9 +31,11 @@ class SimulatedMachine final : public MotionBackend {
 
   interpreter::EventSink& events() override { return queue_builder_; }
   /// A block that has more than kBlockReserve actions or kTextReserve bytes of text beyond this
-  /// becomes an alarm (MCH0005).
+  /// becomes an alarm (MCH0005). After a block with more text than that, each waits until all
+  /// text is written: what has fit once fits again.
   bool has_room() const override {
-    return queue_.size() < kQueuedActions && queue_.texts().free() >= kTextReserve;
+    if (queue_.size() >= kQueuedActions || queue_.texts().free() < kTextReserve) return false;
+    return queue_builder_.largest_text() <= kTextReserve || queue_.texts().is_empty();
   }
   static constexpr std::size_t kQueuedActions = 8192;
   static constexpr std::size_t kBlockReserve = 8192;

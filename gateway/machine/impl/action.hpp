@@ -26,6 +26,7 @@ class TextRing {
       : bytes_(std::make_unique<char[]>(capacity)), capacity_(capacity) {}
 
   std::size_t free() const { return capacity_ - used_; }
+  bool is_empty() const { return used_ == 0; }
   void clear() { used_ = write_ = 0; }
 
   /// Absent when it does not fit.

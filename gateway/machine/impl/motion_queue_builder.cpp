@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dripline::machine::impl {
 
@@ -22,6 +23,7 @@ void MotionQueueBuilder::begin(const Coordinates& at) {
   spindle_.stop();
   builder_.drop_direction();
   is_closed_ = false;
+  text_block_ = block_text_ = largest_text_ = 0;
 }
 
 Action* MotionQueueBuilder::add(const Origin& origin) {
@@ -154,6 +156,9 @@ void MotionQueueBuilder::on_end(const interpreter::End& event) {
 
 void MotionQueueBuilder::add_text(const Origin& origin, Text text, std::string_view content) {
   if (is_closed_) return;
+  if (std::exchange(text_block_, origin.block) != origin.block) block_text_ = 0;
+  block_text_ += content.size();
+  largest_text_ = std::max(largest_text_, block_text_);
   const auto piece = queue_.texts().push(content);
   if (!piece)
     return alarm(origin, "MCH0005", "one block puts out more text than the machine can queue");

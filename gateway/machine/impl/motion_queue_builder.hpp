@@ -19,6 +19,8 @@ class MotionQueueBuilder final : public interpreter::EventSink {
   void end_probe(const Coordinates& at);
   /// Takes nothing more until begin().
   void close() { is_closed_ = true; }
+  /// Of one block since begin(), in bytes.
+  std::size_t largest_text() const { return largest_text_; }
 
   void on_program(const interpreter::ProgramHeader& header) override {
     builder_.show_as({.units = header.units, .x_is_diameter = header.x_is_diameter});
@@ -67,6 +69,8 @@ class MotionQueueBuilder final : public interpreter::EventSink {
   Coordinates end_{};     ///< where the queued motion ends
   Lock lock_;             ///< of what comes next
   bool is_closed_ = false;
+  std::uint64_t text_block_ = 0;  ///< whose text was queued last
+  std::size_t block_text_ = 0, largest_text_ = 0;
 };
 
 }  // namespace dripline::machine::impl

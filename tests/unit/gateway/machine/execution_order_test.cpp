@@ -234,6 +234,22 @@ TEST(Queue, OverrunByOneBlockIsAnAlarmAndNotMemory) {
   EXPECT_TRUE(test.recorder.lines.back().starts_with("alarm MCH0005"));
 }
 
+/// As a mask of FN 16 that prints much, twice in a row.
+TEST(Queue, TakesWhatHasFitOnceAgain) {
+  TestMachine test;
+  test.recorder.writes_blocks = false;
+  const std::string text(400 * 1024, 't');
+  for (std::size_t times = 1; times <= 5; ++times) {
+    while (!test.machine.has_room()) test.machine.poll(Seconds{1}, 1);
+    test.program.output("small");
+    while (!test.machine.has_room()) test.machine.poll(Seconds{1}, 1);
+    test.program.output(text);
+  }
+  test.run_all();
+  ASSERT_EQ(test.recorder.lines.size(), 10U);
+  EXPECT_EQ(test.recorder.lines.back(), "output " + text);
+}
+
 TEST(Queue, OverrunByTextIsAnAlarm) {
   TestMachine test;
   const Origin& origin = test.program.begin_block();
