@@ -105,6 +105,7 @@ Result<void> Gateway::recover() {
     process::log_error("{}: no program is begun until the memory is discarded at the panel {}",
                        memory_.fault(), run_.label());
   }
+  if (line_ && outbox_.active_run()) line_->doubt_text();
   return loop_.recover();
 }
 

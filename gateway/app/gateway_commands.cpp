@@ -338,6 +338,10 @@ Reply Gateway::carry_out(const PanelCommand& command) {
   }
   const bool is_stop = command.verb == Verb::Hold || command.verb == Verb::Abort;
   if (is_stop && stop_without_run("at the machine's panel")) return {};
+  if (command.verb == Verb::CycleStart && !run_.session && line_ && line_->reset()) {
+    recorder_.note_at_panel(machine_->status().origin, "cycle start");
+    return {true, "the next text of the line begins a run"};
+  }
   if (!run_.is_active()) return refuse("no run is active");
   switch (command.verb) {
     case Verb::CycleStart:

@@ -1,7 +1,9 @@
 #include "gateway/app/line_operator.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "gateway/line/inbound/program_head.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
@@ -29,8 +31,44 @@ bool must_ask(const wire::LineSettings& settings) {
   return settings.flow == wire::Flow::Heidenhain || settings.flow == wire::Flow::HeidenhainBcc;
 }
 
+/// Each transfer has a beginning of its own: no rest of a text can be taken for one.
+bool is_framed(const wire::LineSettings& settings) {
+  return must_ask(settings) || settings.flow == wire::Flow::Xmodem;
+}
+
+bool is_tape(const wire::LineSettings& settings) {
+  return settings.flow == wire::Flow::TapeReader;
+}
+
+constexpr std::string_view kNeedsReset =
+    "the rest of a text whose run was cut off begins no run: send the program from its beginning, "
+    "or press cycle start at the machine's panel to take what comes next";
+constexpr std::string_view kTapeNeedsReset =
+    "the tape is where its run was cut off: put it where it has to be read from, then press cycle "
+    "start at the machine's panel";
+constexpr std::size_t kMaxFirstLine = 256;
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
 bool is_blank(std::string_view text) {
-  return text.find_first_not_of(" \t\r\n") == std::string_view::npos;
+  return text.find_first_not_of(kBlanks) == std::string_view::npos;
+}
+
+std::string_view first_line(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  return text.substr(0, text.find('\n'));
+}
+
+/// Nothing but blanks has none to wait for.
+bool has_first_line(std::string_view text) {
+  const std::string_view line = first_line(text);
+  return line.empty() || line.size() >= kMaxFirstLine || line.end() != text.end();
+}
+
+/// The rewind stop of a tape, or the name of a program.
+bool is_beginning(std::string_view text) {
+  const std::string_view line = first_line(text);
+  return line.starts_with('%') || line::begins_program(line, false);
 }
 
 }  // namespace
@@ -124,17 +162,46 @@ void LineOperator::set_fault(std::string_view reason) {
 }
 
 void LineOperator::take_text(std::string_view text) {
-  if (state_ == State::Listening && !is_blank(text) && !parts_.run.session && !begin_run()) {
-    state_ = State::Draining;
-    parts_.line.abort();
-  }
-  if (state_ != State::Feeding) return parts_.line.release(text.size());
+  head_ += text;
+  const bool is_first = state_ == State::Listening && !parts_.run.session;
+  if (is_first && is_in_doubt_ && !has_first_line(head_)) return;
+  if (is_first && !is_blank(head_)) begin_text();
+  const std::string taken = std::exchange(head_, {});
+  if (state_ != State::Feeding) return parts_.line.release(taken.size());
   fault_.clear();
   logged_faults_.clear();
-  feed_->append(text);
+  feed_->append(taken);
+}
+
+void LineOperator::begin_text() {
+  const bool is_rest = is_in_doubt_ && !is_beginning(head_);
+  if (is_rest) set_fault(kNeedsReset);
+  if (!is_rest && begin_run()) return;
+  doubt_text();
+  state_ = State::Draining;
+  parts_.line.abort();
+}
+
+void LineOperator::doubt_text() {
+  is_in_doubt_ = !is_framed(parts_.line.settings());
+}
+
+/// The line listens again from `poll`.
+bool LineOperator::reset() {
+  if (!std::exchange(is_in_doubt_, false)) return false;
+  fault_.clear();
+  logged_faults_.clear();
+  if (state_ == State::Locked) state_ = State::Closed;
+  return true;
+}
+
+/// A single line without its end is no program.
+void LineOperator::drop_head() {
+  if (!head_.empty()) parts_.line.release(std::exchange(head_, {}).size());
 }
 
 void LineOperator::end_text() {
+  drop_head();
   if (state_ == State::Feeding && is_open_ended(parts_.line.settings()))
     return parts_.line.expect();  // silence only: the run continues when more arrives
   if (state_ == State::Feeding) {
@@ -155,6 +222,8 @@ void LineOperator::fail_text(const std::string& reason) {
     feed_->break_off(fault_);
     state_ = State::BrokenOff;
   } else if (state_ == State::Listening) {
+    drop_head();
+    if (is_tape(parts_.line.settings())) doubt_text();  // in front of its first whole block
     state_ = State::Draining;
     listen_at_.reset();
   }
@@ -178,6 +247,7 @@ bool LineOperator::begin_run() {
   feed_ = raw;
   released_ = 0;
   state_ = State::Feeding;
+  is_in_doubt_ = false;
   process::log_info("run begins with text from line {} {}", address(), parts_.run.label());
   return true;
 }
@@ -185,6 +255,11 @@ bool LineOperator::begin_run() {
 /// Asks the host for a program where this control does so, or waits for one.
 void LineOperator::listen(bool may_ask) {
   listen_at_.reset();
+  drop_head();
+  if (is_in_doubt_ && is_tape(parts_.line.settings())) {
+    state_ = State::Locked;
+    return set_fault(kTapeNeedsReset);
+  }
   state_ = State::Listening;
   program_.clear();
   if (!may_ask || request_.empty()) {
@@ -200,8 +275,9 @@ void LineOperator::listen(bool may_ask) {
 void LineOperator::on_run_over() {
   feed_ = nullptr;
   const bool is_complete = state_ == State::Complete;
-  if (!is_complete && parts_.run.last_execution != dds::Execution::ProgramCompleted)
-    parts_.line.abort();
+  const bool is_completed = parts_.run.last_execution == dds::Execution::ProgramCompleted;
+  if (!is_complete && !is_completed) parts_.line.abort();
+  if (!is_completed && (!is_complete || is_tape(parts_.line.settings()))) doubt_text();
   state_ = is_complete ? State::Closed : State::Draining;
   listen_at_.reset();
   if (is_complete) listen_at_ = parts_.clock.steady_now();

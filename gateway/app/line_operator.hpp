@@ -37,6 +37,11 @@ class LineOperator {
   std::optional<SteadyTime> next_poll(SteadyTime now) const;
   /// The run's session is gone.
   void on_run_over();
+  /// The run before this process was cut off: the host may be in the middle of its text.
+  void doubt_text();
+  /// The operator's reset, at the panel: the next text begins a run, however it begins. False: no
+  /// text waits for that.
+  bool reset();
   void print(const interpreter::Output& output);
 
   /// What is wrong with the line; empty: nothing.
@@ -52,10 +57,13 @@ class LineOperator {
     Complete,   ///< none is expected: the run's text is complete
     BrokenOff,  ///< the run's text ended in a fault: the rest of it is dropped
     Draining,   ///< as that, until the line is quiet: the run has ended
+    Locked,     ///< a tape is where its run was cut off: the reader waits for the operator's reset
   };
   void take(feed::LineItem& item);
   bool belongs_to_next_run(const feed::LineItem& item) const;
   void take_text(std::string_view text);
+  void begin_text();
+  void drop_head();
   void end_text();
   void fail_text(const std::string& reason);
   bool begin_run();
@@ -72,6 +80,8 @@ class LineOperator {
   feed::LineFeed* feed_ = nullptr;  ///< of the session
   std::uint64_t released_ = 0;      ///< bytes of its text
   std::string program_, fault_;
+  bool is_in_doubt_ = false;  ///< what comes next may be the rest of a text that was cut off
+  std::string head_;          ///< of such a text: what came before its first line is complete
   std::set<std::string> logged_faults_;  ///< since text came, or the line was steady last
   std::string request_;                  ///< still to be asked for; "next": always
   std::optional<SteadyTime> listen_at_;
