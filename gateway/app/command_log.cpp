@@ -17,6 +17,10 @@ std::string start_key(const std::string& run) {
   return "run " + run;
 }
 
+bool begins_motion(const dds::Command& command) {
+  return command.action == dds::CommandAction::Start || command.action == dds::CommandAction::Jog;
+}
+
 }  // namespace
 
 Result<std::optional<Reply>> CommandLog::find(const std::string& command) const {
@@ -69,13 +73,22 @@ std::optional<std::string> CommandValidity::refusal(const dds::Command& command,
     return fmt::format("the command came {:.1f} s after its deadline",
                        std::chrono::duration<double>(time - command.deadline).count());
   }
-  if (command.server == server_ && command.number < last_stop_)
+  const bool is_given = command.given != microseconds{0};
+  if ((command.server == server_ && command.number < last_stop_) ||
+      (is_given && command.given < last_stop_given_))
     return "a later command has stopped the machine meanwhile";
-  if (command.given != microseconds{0} && command.given < last_panel_) {
+  if (is_given && command.given < last_panel_) {
     return fmt::format("the machine's panel was used {:.1f} s after the command was given",
                        std::chrono::duration<double>(last_panel_ - command.given).count());
   }
+  const bool is_unseen = stopped_motion_ && command.given < *stopped_motion_ + kUnseen;
+  if (is_given && is_unseen && begins_motion(command))
+    return "the axes were stopped as the command was given: look at the machine, then repeat it";
   return std::nullopt;
+}
+
+void CommandValidity::note_stopped_motion(SteadyTime now) {
+  stopped_motion_ = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch());
 }
 
 void CommandValidity::note_panel(SteadyTime now) {
@@ -86,6 +99,8 @@ void CommandValidity::note_stop(const dds::Command& command) {
   if (command.server != server_) last_stop_ = 0;
   server_ = command.server;
   last_stop_ = std::max(last_stop_, command.number);
+  if (!dds::is_override(command.action))
+    last_stop_given_ = std::max(last_stop_given_, command.given);
 }
 
 }  // namespace dripline::gateway

@@ -69,10 +69,16 @@ class CommandValidity {
   void note_stop(const dds::Command& command);
   /// Something was done at the machine's panel: who gave a command before has not seen that.
   void note_panel(SteadyTime now);
+  /// A hold or an abort has stopped axes that no run moves: who begins another motion meanwhile has
+  /// not seen that.
+  void note_stopped_motion(SteadyTime now);
+
+  static constexpr std::chrono::milliseconds kUnseen{500};
 
  private:
   std::uint64_t session_;
-  std::chrono::microseconds last_panel_{0};
+  std::chrono::microseconds last_panel_{0}, last_stop_given_{0};
+  std::optional<std::chrono::microseconds> stopped_motion_;
   std::uint64_t server_ = 0, last_stop_ = 0;
 };
 

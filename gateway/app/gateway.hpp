@@ -82,7 +82,7 @@ class Gateway final : public MachineGateway {
   std::optional<Reply> begin_jog(const dds::Command& command);
   bool stop_jog(std::string_view why);
   bool stop_homing(std::string_view why);
-  bool stop_without_run(std::string_view why) { return stop_jog(why) || stop_homing(why); }
+  bool stop_without_run(std::string_view why);
   void on_jog(const dds::Command& command);
   void answer_jog();
   void give_answer(const std::string& command, const Reply& reply);

@@ -308,5 +308,44 @@ TEST(Jog, IsRefusedByAMachineThatHasNone) {
   EXPECT_FALSE(shop.gateway->status().jog) << "the page shows no buttons";
 }
 
+/// Who has given it has not seen the stop.
+TEST(JogAfterAStop, MovesNothingThatWasGivenBeforeOrAsTheAxesStopped) {
+  JogShop shop(interpreter::kFanucDialect);
+  const auto now = [&] {
+    return std::chrono::duration_cast<std::chrono::microseconds>(
+        shop.clock.steady.time_since_epoch());
+  };
+  const auto at = [&](dds::Command command, std::chrono::microseconds given) {
+    command.given = given;
+    return command;
+  };
+  const auto mdi = [&] {
+    shop.push("MDI", "G21 G91 G1 X5 F600\n");
+    dds::Command command = shop.start_command("MDI");
+    command.argument = dds::kMdiStart;
+    return command;
+  };
+  const auto command = shop.begin("X 50 mm F1200");
+  shop.pass(300ms);
+  const auto before = now();
+  shop.pass(200ms);
+  dds::Command hold = shop.command(CommandAction::Hold);
+  hold.run.clear();
+  ASSERT_TRUE(shop.send(at(hold, now())).accepted);
+  EXPECT_THAT(shop.end_of(command), HasSubstr("stopped by command"));
+  const double rests = shop.at(0);
+  EXPECT_THAT(shop.answer_to(at(shop.jog_command("X 5 mm F600"), before)),
+              HasSubstr("a later command has stopped the machine"));
+  EXPECT_THAT(shop.answer_to(at(mdi(), before)),
+              HasSubstr("a later command has stopped the machine"));
+  shop.pass(200ms);
+  EXPECT_THAT(shop.answer_to(at(shop.jog_command("X 5 mm F600"), now())),
+              HasSubstr("look at the machine, then repeat it"));
+  EXPECT_THAT(shop.answer_to(at(mdi(), now())), HasSubstr("look at the machine, then repeat it"));
+  EXPECT_EQ(shop.at(0), rests);
+  shop.pass(1s);
+  EXPECT_THAT(shop.answer_to(at(shop.jog_command("X 5 mm F600"), now())), StartsWith("X "));
+}
+
 }  // namespace
 }  // namespace dripline::gateway
