@@ -101,6 +101,10 @@ std::optional<double> meet_on_arc(const ProbeCylinder& cylinder, const Move& mov
   return first;
 }
 
+bool starts_on(const ProbePlane& plane, const Move& move) {
+  return std::fabs(plane.at.mm() - move.start(plane.axis)) <= kOnSurface;
+}
+
 std::optional<double> meet(const ProbePlane& plane, const Move& move) {
   if (move.circle) return meet_on_arc(plane, move);
   const double distance = plane.at.mm() - move.start(plane.axis);
@@ -108,11 +112,12 @@ std::optional<double> meet(const ProbePlane& plane, const Move& move) {
   if (std::fabs(delta) < kOnSurface) return std::nullopt;  // along the plane
   if (plane.axis == Axis::Z) {
     const bool leaves_material = delta > 0;
-    const bool starts_on = std::fabs(distance) <= kOnSurface;
-    if (move.until == ProbeUntil::Contact && starts_on && leaves_material) return std::nullopt;
+    if (move.until == ProbeUntil::Contact && distance > kOnSurface) return 0.0;  // inside
+    if (move.until == ProbeUntil::Contact && starts_on(plane, move) && leaves_material)
+      return std::nullopt;
     if (move.until == ProbeUntil::Release && !leaves_material) return std::nullopt;
   }
-  if (std::fabs(distance) <= kOnSurface) return 0.0;
+  if (starts_on(plane, move)) return 0.0;
   return on_move(move, distance / delta);
 }
 
@@ -268,7 +273,8 @@ ProbeResult Workpiece::probe(const Probe& probe) const {
   if (!first) return result;
   result.tripped = true;
   result.at = point_at(move, *first);
-  if (plane) result.at.set(plane->axis, plane->at);  // exact, whatever the rounding of t
+  // Exact, whatever the rounding of t; not where the move begins inside.
+  if (plane && (*first > 0 || starts_on(*plane, move))) result.at.set(plane->axis, plane->at);
   return result;
 }
 

@@ -36,11 +36,11 @@ class Workpiece {
   bool empty() const { return surfaces_.empty(); }
 
   /// Contact: where the move first meets a surface or goes into one it starts on; at its
-  /// start when it begins inside a profile. Release: where it first leaves the surface it starts on
-  /// or after. A surface with material on either side is met and left by any crossing. With no
-  /// such point the probe is not tripped and `at` is the end of the move. Positions within a
-  /// millionth of a millimeter of a surface are on it.
-  /// An arc lies in the plane ZX; one that ends off its circle is met on that of its start.
+  /// start when it begins inside a profile, or under a plane across Z and moves along Z. Release:
+  /// where it first leaves the surface it starts on or after. A surface with material on either
+  /// side is met and left by any crossing. With no such point the probe is not tripped and `at` is
+  /// the end of the move. Positions within a millionth of a millimeter of a surface are on it. An
+  /// arc lies in the plane ZX; one that ends off its circle is met on that of its start.
   ProbeResult probe(const Probe& move) const;
   /// A straight move.
   ProbeResult probe(const Position& from, const Position& to, ProbeUntil until) const {

@@ -67,6 +67,14 @@ TEST(Workpiece, AProbedPlaneIsReleasedAndMetAgain) {
   expect_at(workpiece.probe(point(0, 0, -2), point(0, 0, 1), kRelease), 0, 0, -0.5);
 }
 
+TEST(Workpiece, AMoveThatBeginsUnderAPlaneAcrossZIsMetThere) {
+  const Workpiece workpiece = plane(Axis::Z, -0.5);
+  expect_at(workpiece.probe(point(1, 0, -2), point(1, 0, -9), kContact), 1, 0, -2);
+  expect_at(workpiece.probe(point(1, 0, -2), point(3, 0, 4), kContact), 1, 0, -2);
+  EXPECT_FALSE(workpiece.probe(point(1, 0, -2), point(9, 0, -2), kContact).tripped)
+      << "sideways it meets the walls that other surfaces state";
+}
+
 TEST(Workpiece, APlaneAcrossXIsMetFromBothSides) {
   const Workpiece workpiece = plane(Axis::X, 10);
   expect_at(workpiece.probe(point(0, 0, 0), point(20, 0, 0), kContact), 10, 0, 0);
