@@ -231,6 +231,7 @@ Reply Gateway::operate(const dds::Command& command) {
       loop_.keep_hold();
       return {};
     case CommandAction::Resume:
+      if (machine_->needs_operator()) return refuse(std::string(kDoorWasOpen));
       return resume();
     case CommandAction::Abort:
       loop_.abort();

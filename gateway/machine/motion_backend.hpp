@@ -170,6 +170,8 @@ class MotionBackend {
   virtual void hold() = 0;
   /// Cycle start: ends a hold, a stop or a single-block stop. False when there was none.
   virtual bool resume() = 0;
+  /// A safety door was opened since the hold began: only the operator at the machine ends it.
+  virtual bool needs_operator() const { return false; }
   /// Ends a hold that a fault of the owner's own was the reason of. False: this one is left to the
   /// operator, a safety door was opened meanwhile.
   virtual bool continue_unattended() { return resume(); }

@@ -61,6 +61,8 @@ class PanelController {
   bool is_stopped_at_panel_ = false;
 };
 
+inline constexpr std::string_view kDoorWasOpen =
+    "the safety door was opened: only cycle start at the machine's panel moves the axes again";
 inline constexpr std::string_view kEmergencyStopIsPressed =
     "the emergency stop is pressed: release it first";
 

@@ -241,12 +241,13 @@ bool StreamedMachine::resume() {
   return has_resumed;
 }
 
+bool StreamedMachine::needs_operator() const {
+  const Lock lock(mutex_);
+  return device_.needs_operator();
+}
+
 bool StreamedMachine::continue_unattended() {
-  {
-    const Lock lock(mutex_);
-    if (device_.needs_operator()) return false;
-  }
-  return resume();
+  return !needs_operator() && resume();
 }
 
 void StreamedMachine::abort() {

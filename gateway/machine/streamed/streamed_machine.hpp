@@ -52,6 +52,7 @@ class StreamedMachine : public MotionBackend {
   void set_panel(const OperatorPanel& panel) override;
   void hold() override;
   bool resume() override;
+  bool needs_operator() const override;
   bool continue_unattended() override;
   void turn_handwheel(Seconds) override {}
   void abort() override;

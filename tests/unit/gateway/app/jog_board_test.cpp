@@ -77,6 +77,26 @@ TEST_F(JoggedBoard, ARefusalOfTheBoardIsTheAnswer) {
   EXPECT_EQ(shop->jog("X 1 mm F600"), "X 1 mm");
 }
 
+TEST_F(JoggedBoard, ItsRunIsLeftToCycleStartAfterADoorWasOpened) {
+  start(interpreter::kFanucDialect);
+  shop->push("O1", "G21 G90 G1 X200. F600\nM30\n");
+  ASSERT_TRUE(shop->start("O1").accepted);
+  ASSERT_TRUE(shop->run_until([&] { return board->position()[0] > 1; }));
+  board->open_door();
+  shop->pass(1s);
+  board->close_door();
+  shop->pass(1s);
+  const double rests = board->position()[0];
+  const auto refused = shop->send(shop->command(dds::CommandAction::Resume));
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_THAT(refused.reason, HasSubstr("cycle start at the machine's panel"));
+  shop->pass(3s);
+  EXPECT_EQ(board->position()[0], rests);
+  EXPECT_EQ(shop->status->waits_for, dds::WaitsFor::CycleStart);
+  EXPECT_THAT(shop->panel("cycle-start"), StartsWith("ok"));
+  EXPECT_TRUE(shop->run_until([&] { return board->position()[0] > rests + 1; }));
+}
+
 TEST_F(JoggedBoard, AStepWhoseLineIsLostEndsByItselfAndIsNotRepeated) {
   start(interpreter::kFanucDialect);
   const auto command = shop->begin("X 5 mm F600");
