@@ -132,6 +132,20 @@ void Gateway::on(const StopRequested& stop, SteadyTime) {
   stop_requested_ = true;
 }
 
+/// By a hold or an abort. False: nothing moves without a run.
+bool Gateway::stop_without_run(std::string_view why) {
+  if (!stop_jog(why) && !stop_homing(why)) return false;
+  validity_.note_stopped_motion(parts_.clock.steady_now());
+  return true;
+}
+
+/// False: no axes are homed.
+bool Gateway::stop_homing(std::string_view why) {
+  if (run_.session || !machine_->stop_homing()) return false;
+  process::log_info("homing stopped {} {}", why, run_.label());
+  return true;
+}
+
 SteadyTime Gateway::turn(SteadyTime now) {
   server_.announce();
   if (line_) line_->poll(now);

@@ -142,20 +142,6 @@ bool Gateway::stop_jog(std::string_view why) {
   return true;
 }
 
-/// By a hold or an abort. False: nothing moves without a run.
-bool Gateway::stop_without_run(std::string_view why) {
-  if (!stop_jog(why) && !stop_homing(why)) return false;
-  validity_.note_stopped_motion(parts_.clock.steady_now());
-  return true;
-}
-
-/// False: no axes are homed.
-bool Gateway::stop_homing(std::string_view why) {
-  if (run_.session || !machine_->stop_homing()) return false;
-  process::log_info("homing stopped {} {}", why, run_.label());
-  return true;
-}
-
 void Gateway::answer_jog() {
   const auto answer = jogger_.take_answer();
   if (!answer) return;
