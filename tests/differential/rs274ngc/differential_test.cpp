@@ -108,8 +108,10 @@ class Comparison {
   void compare(const std::string& name, const std::string& text, const fs::path& own) {
     const fs::path file = own / "program.ngc";
     std::ofstream(file, std::ios::binary) << text;
-    const Behavior peer = run_peer(file, folder_.path() / "tool.tbl");
-    const Behavior ours = run_ours(text, "tests/differential/rs274ngc/programs");
+    Behavior peer = run_peer(file, folder_.path() / "tool.tbl");
+    Behavior ours = run_ours(text, "tests/differential/rs274ngc/programs");
+    join_feeds(peer);
+    join_feeds(ours);
     const std::string what = difference(ours, peer, kTolerance);
     if (what.empty()) return;
     const std::lock_guard lock(mutex_);

@@ -53,17 +53,25 @@ std::string text_of(const Move& move) {
 
 void drop_standing_moves(Behavior& behavior) {
   std::vector<Move> kept;
+  std::array<double, 6> at{};
+  for (const Move& move : behavior.moves) {
+    if (move.kind == Move::Kind::Arc || !is_near(at, move.to, kStanding)) kept.push_back(move);
+    at = move.to;
+  }
+  behavior.moves = std::move(kept);
+}
+
+void join_feeds(Behavior& behavior) {
+  std::vector<Move> kept;
   std::array<double, 6> before{}, at{};
   for (const Move& move : behavior.moves) {
-    const bool is_arc = move.kind == Move::Kind::Arc;
-    if (is_arc || !is_near(at, move.to, kStanding)) {
-      const bool is_after_feed = !kept.empty() && kept.back().kind == Move::Kind::Feed;
-      if (is_after_feed && move.kind == Move::Kind::Feed && continues(before, at, move.to)) {
-        kept.back() = move;
-      } else {
-        kept.push_back(move);
-        before = at;
-      }
+    const bool are_feeds =
+        !kept.empty() && kept.back().kind == Move::Kind::Feed && move.kind == Move::Kind::Feed;
+    if (are_feeds && continues(before, at, move.to)) {
+      kept.back() = move;
+    } else {
+      kept.push_back(move);
+      before = at;
     }
     at = move.to;
   }

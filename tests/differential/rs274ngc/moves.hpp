@@ -24,9 +24,10 @@ struct Behavior {
   std::vector<Move> moves;
 };
 
-/// Drops moves of no length, and joins feeds along one axis: one side makes two of them, the other
-/// one.
+/// Drops moves of no length: one side shows them, the other does not.
 void drop_standing_moves(Behavior& behavior);
+/// Joins feeds along one axis, in its direction: one side makes two of them, the other one.
+void join_feeds(Behavior& behavior);
 
 /// Empty when both did the same within `tolerance` millimeters; else what differs first.
 std::string difference(const Behavior& ours, const Behavior& peer, double tolerance);
