@@ -57,7 +57,7 @@ TEST_F(DncEdit, CopiesAndMovesBlocks) {
   EXPECT_EQ(dnc.read("O1.nc"), "O1\nG1 X3\nG1 X1\nG1 X2\nG1 X3\nM30\n");
   const auto itself = dnc({"edit", "O1.nc", "--control", "centurion", "--move", "2..4", "3"});
   EXPECT_EQ(itself.status, 1);
-  EXPECT_EQ(itself.err, "error: --move 2..4 3: block 3 is moved itself\n");
+  EXPECT_EQ(itself.err, "dnc: --move 2..4 3: block 3 is moved itself\n");
   const auto absent = dnc({"edit", "O1.nc", "--control", "centurion", "--copy", "9", "3"});
   EXPECT_NE(absent.err.find("block 9 is not there"), std::string::npos) << absent.err;
   EXPECT_EQ(dnc.read("O1.nc"), "O1\nG1 X3\nG1 X1\nG1 X2\nG1 X3\nM30\n");

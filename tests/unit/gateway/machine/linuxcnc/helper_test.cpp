@@ -1,6 +1,8 @@
 // The helper itself, with a module for Python that has no LinuxCNC.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -16,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using test_support::eventually;
-using namespace std::chrono_literals;
 
 class LinuxCncHelper : public testing::Test {
  protected:
@@ -24,9 +25,9 @@ class LinuxCncHelper : public testing::Test {
     if (!fs::exists("/usr/bin/python3")) GTEST_SKIP() << "skipped: python3 is not installed";
     ::setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
     ::setenv("PYTHONPATH", fs::absolute("tests/support/linuxcnc/double").c_str(), 1);
-    // The helper wants a process of the task's name: this one.
-    std::string name;
-    std::getline(std::ifstream("/proc/self/comm"), name);
+    // The helper wants a process of the task's name: this one, and none of the tests beside it.
+    const std::string name = fmt::format("task{}", ::getpid());
+    ASSERT_EQ(::prctl(PR_SET_NAME, name.c_str()), 0);
     std::ofstream(folder_.path() / "mill.ini") << "TASK = " << name << "\n";
     auto started = HelperProcess::start(folder_.path() / "mill.ini");
     ::unsetenv("PYTHONPATH");
@@ -41,12 +42,10 @@ class LinuxCncHelper : public testing::Test {
   }
   /// The helper says so within some time.
   bool hears(const std::string& text) {
-    return eventually(
-        [&] {
-          (void)helper_->read(said_);
-          return said_.find(text) != std::string::npos;
-        },
-        20s);
+    return eventually([&] {
+      (void)helper_->read(said_);
+      return said_.find(text) != std::string::npos;
+    });
   }
   bool is_done(int number) { return hears(fmt::format("\"done\":{},", number)); }
   std::vector<std::string> sent() const {
@@ -59,7 +58,7 @@ class LinuxCncHelper : public testing::Test {
     return std::ranges::count(sent(), command) > 0;
   }
   bool sends(const std::string& command) {
-    return eventually([&] { return has_sent(command); }, 20s);
+    return eventually([&] { return has_sent(command); });
   }
   /// LinuxCNC's task takes no more commands than it has.
   void make_busy() {
