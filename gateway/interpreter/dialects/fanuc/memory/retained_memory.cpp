@@ -66,7 +66,7 @@ bool FanucInterpreter::read_live(std::vector<double>& values) {
   const Locals& locals = run_.state.locals.back();
   const auto& commons = run_.state.commons;
   bool has_changed = !known_live_;
-  if (!known_live_) known_live_.emplace();
+  if (!known_live_) known_live_ = KnownLive{locals, commons};
   has_changed |= note(known_live_->locals, locals);
   has_changed |= note(known_live_->commons, commons);
   if (!has_changed) return false;
