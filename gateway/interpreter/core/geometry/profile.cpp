@@ -33,14 +33,14 @@ double depth_at(const ProfilePiece& piece, double along) {
   return piece.from.depth + (piece.to.depth - piece.from.depth) * part;
 }
 
-void add_line(Profile& profile, const ProfilePoint& from, const ProfilePoint& to) {
+void add_line(ProfilePieces& profile, const ProfilePoint& from, const ProfilePoint& to) {
   ProfilePiece piece;
   piece.from = from;
   piece.to = to;
   profile.push_back(piece);
 }
 
-void add_arc(Profile& profile, const ProfileArc& arc) {
+void add_arc(ProfilePieces& profile, const ProfileArc& arc) {
   const double radius =
       std::hypot(arc.from.depth - arc.center.depth, arc.from.along - arc.center.along);
   const double sense = arc.is_counterclockwise ? 1 : -1;
@@ -72,7 +72,7 @@ void add_arc(Profile& profile, const ProfileArc& arc) {
   }
 }
 
-void shift(Profile& profile, double depth, double along) {
+void shift(ProfilePieces& profile, double depth, double along) {
   for (ProfilePiece& piece : profile) {
     for (ProfilePoint* point : {&piece.from, &piece.to, &piece.center}) {
       point->depth += depth;
@@ -96,7 +96,7 @@ double along_at(const ProfilePiece& piece, double level) {
   return piece.from.along + (piece.to.along - piece.from.along) * part;
 }
 
-std::vector<OpenInterval> open_at(const Profile& profile, double level, double start) {
+std::vector<OpenInterval> open_at(const ProfilePieces& profile, double level, double start) {
   std::vector<OpenInterval> found;
   if (profile.empty()) return found;
   bool is_open = is_below(profile.front().from.depth, level);
@@ -123,7 +123,7 @@ std::vector<OpenInterval> open_at(const Profile& profile, double level, double s
   return found;
 }
 
-std::optional<double> highest_between(const Profile& profile, double from, double to) {
+std::optional<double> highest_between(const ProfilePieces& profile, double from, double to) {
   std::optional<double> highest;
   for (const ProfilePiece& piece : profile) {
     const double begin = std::max(from, std::min(piece.from.along, piece.to.along));

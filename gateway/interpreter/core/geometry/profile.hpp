@@ -27,7 +27,7 @@ struct ProfilePiece {
   ProfilePoint center;
   double radius = 0;
 };
-using Profile = std::vector<ProfilePiece>;
+using ProfilePieces = std::vector<ProfilePiece>;
 
 /// Where a cut at one level is free: from where the contour goes down through the level (or the
 /// start of the cut) to where it comes up.
@@ -40,7 +40,7 @@ struct OpenInterval {
 };
 
 /// Adds the pieces of one move.
-void add_line(Profile& profile, const ProfilePoint& from, const ProfilePoint& to);
+void add_line(ProfilePieces& profile, const ProfilePoint& from, const ProfilePoint& to);
 struct ProfileArc {
   ProfilePoint from;
   ProfilePoint to;
@@ -48,16 +48,16 @@ struct ProfileArc {
   bool is_counterclockwise = false;
   double sweep = 0;  ///< degrees
 };
-void add_arc(Profile& profile, const ProfileArc& arc);
-void shift(Profile& profile, double depth, double along);
+void add_arc(ProfilePieces& profile, const ProfileArc& arc);
+void shift(ProfilePieces& profile, double depth, double along);
 
 /// Of a piece, at a place along the cut; of a wall the higher end.
 double depth_at(const ProfilePiece& piece, double along);
 /// In order along the cut, which begins at `start`.
-std::vector<OpenInterval> open_at(const Profile& profile, double level, double start);
+std::vector<OpenInterval> open_at(const ProfilePieces& profile, double level, double start);
 /// Where along the cut a piece reaches `level`.
 double along_at(const ProfilePiece& piece, double level);
 /// The highest contour between two places; nothing where there is none.
-std::optional<double> highest_between(const Profile& profile, double from, double to);
+std::optional<double> highest_between(const ProfilePieces& profile, double from, double to);
 
 }  // namespace dripline::interpreter

@@ -47,7 +47,7 @@ ProfileFrame frame_of(const PatternCycle& cycle) {
   return {is_facing(cycle), out, sign_of(reach)};
 }
 
-void add_move(Profile& profile, const ProfileFrame& frame, const PlanePoint& from,
+void add_move(ProfilePieces& profile, const ProfileFrame& frame, const PlanePoint& from,
               const PatternMove& move) {
   if (move.kind != PatternMove::Kind::Arc) {
     return add_line(profile, frame.of(from), frame.of(move.to));
@@ -58,8 +58,8 @@ void add_move(Profile& profile, const ProfileFrame& frame, const PlanePoint& fro
 
 /// The contour as it is programmed, from the end of its first move on. `exit` is where its last
 /// move begins.
-Profile contour_of(const PatternCycle& cycle, const ProfileFrame& frame, std::size_t& exit) {
-  Profile profile;
+ProfilePieces contour_of(const PatternCycle& cycle, const ProfileFrame& frame, std::size_t& exit) {
+  ProfilePieces profile;
   PlanePoint from = cycle.start;
   bool is_first = true;
   exit = 0;
@@ -74,7 +74,7 @@ Profile contour_of(const PatternCycle& cycle, const ProfileFrame& frame, std::si
 }
 
 /// The last move may lead back and out; it is no part of the work then.
-void drop_exit(Profile& profile, std::size_t exit) {
+void drop_exit(ProfilePieces& profile, std::size_t exit) {
   if (exit == 0 || exit >= profile.size()) return;
   const ProfilePoint& from = profile[exit].from;
   const ProfilePoint& to = profile.back().to;
@@ -198,7 +198,7 @@ bool check_roughing(Run& run) {
   const ProfileFrame frame = frame_of(cycle);
   const Rules rules = rules_of(cycle);
   std::size_t exit = 0;
-  Profile profile = contour_of(cycle, frame, exit);
+  ProfilePieces profile = contour_of(cycle, frame, exit);
   if (profile.empty()) {
     return run.fail(ErrorCode::IllegalStatement, 0, "the pattern has fewer than two moves");
   }

@@ -58,7 +58,7 @@ class ProfileFrame {
 
 struct Roughing {
   ProfileFrame frame;
-  Profile profile;  ///< the pattern without its first move, and the shoulder; with all stock
+  ProfilePieces profile;  ///< the pattern without its first move, and the shoulder; with all stock
   ProfilePoint start;
   double first_level = 0;
   double step = 0;

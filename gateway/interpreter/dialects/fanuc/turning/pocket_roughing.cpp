@@ -138,7 +138,7 @@ class PocketPasses : public Passes {
   }
 
   bool is_straight_ = true;  ///< the first move leads down to the contour along the depth alone
-  Profile profile_;          ///< without allowance
+  ProfilePieces profile_;    ///< without allowance
 };
 
 }  // namespace

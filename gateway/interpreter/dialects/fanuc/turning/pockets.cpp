@@ -81,7 +81,7 @@ class CutWriter {
   std::vector<PassMove> take() { return std::move(moves_); }
 
  private:
-  const Profile& profile() const { return cuts_.profile; }
+  const ProfilePieces& profile() const { return cuts_.profile; }
 
   /// Over what has been cut: up first, down last.
   void travel(double clear, double along) {
@@ -140,7 +140,7 @@ class CutWriter {
 /// The height of a profile at a place; places come in order.
 class Heights {
  public:
-  explicit Heights(const Profile& profile) : profile_(profile) {}
+  explicit Heights(const ProfilePieces& profile) : profile_(profile) {}
   std::optional<double> at(double along) {
     if (profile_.empty() || along < profile_.front().from.along) return {};
     while (piece_ < profile_.size() && profile_[piece_].to.along < along) ++piece_;
@@ -149,7 +149,7 @@ class Heights {
   }
 
  private:
-  const Profile& profile_;
+  const ProfilePieces& profile_;
   std::size_t piece_ = 0;
 };
 
@@ -167,9 +167,9 @@ std::size_t count_pockets(const PocketCuts& cuts) {
   return count;
 }
 
-bool reaches_into(const Profile& shifted, const Profile& part) {
+bool reaches_into(const ProfilePieces& shifted, const ProfilePieces& part) {
   std::vector<double> places;
-  for (const Profile* profile : {&shifted, &part}) {
+  for (const ProfilePieces* profile : {&shifted, &part}) {
     for (const ProfilePiece& piece : *profile) {
       places.push_back(piece.from.along);
       places.push_back(piece.to.along);

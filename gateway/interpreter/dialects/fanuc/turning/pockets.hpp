@@ -14,7 +14,7 @@ namespace dripline::interpreter::fanuc {
 struct PocketCuts {
   /// The contour with its allowance, from where the cuts begin, or from the depth straight below,
   /// to a wall at its end. Along the cut it is monotonic, and not beyond `begin` in the depth.
-  Profile profile;
+  ProfilePieces profile;
   ProfilePoint begin;
   double depth = 0;   ///< of a cut, above 0
   double escape = 0;  ///< off the work after a cut
@@ -37,7 +37,7 @@ struct PassMove {
 std::size_t count_pockets(const PocketCuts& cuts);
 
 /// Whether `shifted` is somewhere deeper than `part`, of which it is a copy.
-bool reaches_into(const Profile& shifted, const Profile& part);
+bool reaches_into(const ProfilePieces& shifted, const ProfilePieces& part);
 
 /// The cuts at all levels, each along the contour from the level before and up to it again; the
 /// tool is at `begin` before. Nothing when there are more than `max_cuts`.

@@ -17,7 +17,7 @@ PlaneVector plane_point(const ProfilePoint& at) {
   return {at.along, at.depth};
 }
 
-void add_piece(interpreter::Profile& profile, const ContourPiece& piece) {
+void add_piece(ProfilePieces& profile, const ContourPiece& piece) {
   if (!piece.is_arc) return add_line(profile, profile_point(piece.from), profile_point(piece.to));
   const Turn turn = piece.is_counterclockwise ? Turn::Counterclockwise : Turn::Clockwise;
   add_arc(profile, {.from = profile_point(piece.from),
@@ -180,7 +180,7 @@ class Roughing {
 
   const RoughingPlan& plan_;
   const ContourLimits& limits_;
-  interpreter::Profile profile_;
+  ProfilePieces profile_;
   ProfilePoint here_;
   std::size_t at_ = 0;  ///< the piece that the tool is on
   std::vector<double> tops_;
@@ -204,7 +204,7 @@ std::optional<CutMoves> rough(const RoughingPlan& plan, const ContourLimits& lim
 bool is_clear(const CutMoves& moves, PlaneVector from, const ContourPieces& contour,
               const ContourLimits& limits) {
   constexpr int kSamples = 16;
-  interpreter::Profile profile;
+  ProfilePieces profile;
   for (const ContourPiece& piece : contour) add_piece(profile, piece);
   const auto is_below = [&](PlaneVector at) {
     const auto beside = [&](double along) {
