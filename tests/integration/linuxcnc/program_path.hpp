@@ -169,7 +169,9 @@ class LinuxCncPrograms : public LinuxCncTest {
   std::vector<LinuxCnc::Sample> path_of(const std::function<void()>& execute) {
     linuxcnc->reset();
     execute();
-    EXPECT_TRUE(test_support::eventually([&] { return linuxcnc->rests(); }));
+    // Its task may get no processor for a while, and the axes wait for it then.
+    constexpr std::chrono::seconds kRest{1};
+    EXPECT_TRUE(test_support::eventually([&] { return linuxcnc->rests(kRest); }));
     return linuxcnc->samples();
   }
 
