@@ -62,7 +62,7 @@ class System {
   nlohmann::json run(const std::string& id) const;
   /// Waits until the run has ended and returns it.
   nlohmann::json wait_ended(const std::string& id,
-                            std::chrono::milliseconds limit = std::chrono::seconds(60)) const;
+                            std::chrono::milliseconds limit = test_support::kPatience) const;
   std::vector<std::string> report_lines(const std::string& id) const;
   /// What a restart reports before cycle start; null: nothing yet.
   nlohmann::json restart_report(const std::string& id) const;

@@ -7,11 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace dripline::test_support {
+#include "tests/support/patience.hpp"
 
-/// How long a test waits for what comes, before it fails: far longer than it takes, because many
-/// tests share a computer. What must come within a time says its own limit.
-inline constexpr std::chrono::seconds kPatience{60};
+namespace dripline::test_support {
 
 /// A real program under test. Its output goes to a file; it is killed when the object ends. Not
 /// thread-safe.

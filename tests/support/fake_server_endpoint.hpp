@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "protocol/dds/endpoint.hpp"
+#include "tests/support/patience.hpp"
 
 namespace dripline::test_support {
 
@@ -29,7 +30,7 @@ struct WrittenMessages {
   /// Waits until `holds` is true, at most a minute. The lock is held while it is asked.
   bool wait(const std::function<bool()>& holds) {
     std::unique_lock lock(mutex);
-    return changed.wait_for(lock, std::chrono::seconds(60), holds);
+    return changed.wait_for(lock, kPatience, holds);
   }
 };
 

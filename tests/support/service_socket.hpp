@@ -5,7 +5,7 @@
 #include <string>
 
 #include "protocol/base/descriptor.hpp"
-#include "tests/support/child_process.hpp"
+#include "tests/support/patience.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::test_support {

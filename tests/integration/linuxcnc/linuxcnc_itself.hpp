@@ -19,7 +19,7 @@ class LinuxCncItself {
       : helper_(std::move(machine::linuxcnc::HelperProcess::start(ini).value())) {}
 
   /// The machine is on and homed, and executes nothing.
-  void run(const std::string& text, std::chrono::milliseconds limit = std::chrono::seconds(60)) {
+  void run(const std::string& text, std::chrono::milliseconds limit = test_support::kPatience) {
     const std::string file = folder_.path() / fmt::format("p{}.ngc", ++number_);
     std::ofstream(file) << text;
     status_.reset();

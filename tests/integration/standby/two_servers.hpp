@@ -37,7 +37,7 @@ class TwoServers {
   void thaw(int server);
   bool wait_for_standby(std::chrono::milliseconds limit = std::chrono::seconds(30)) const;
   /// Waits until it is the active one.
-  bool wait_active(int server, std::chrono::milliseconds limit = std::chrono::seconds(60)) const;
+  bool wait_active(int server, std::chrono::milliseconds limit = test_support::kPatience) const;
   bool wait_connected(int server, std::chrono::milliseconds limit = std::chrono::seconds(30)) const;
   /// -1: none, or both.
   int active() const;

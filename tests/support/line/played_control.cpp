@@ -3,12 +3,9 @@
 #include <array>
 #include <span>
 
+#include "tests/support/patience.hpp"
+
 namespace dripline::test_support {
-namespace {
-
-constexpr std::chrono::seconds kPatience{60};
-
-}  // namespace
 
 PlayedControl::PlayedControl(const wire::LineSettings& settings, TestLine& line)
     : cable_(line), discipline_(wire::make_discipline(settings, wire::Role::Control).value()) {}

@@ -11,10 +11,10 @@
 #include <deque>
 #include <optional>
 
+#include "tests/support/patience.hpp"
+
 namespace dripline::test_support {
 namespace {
-
-constexpr std::chrono::seconds kPatience{60};
 
 /// The test's settings for the characters; shared with the open channel.
 struct Faults {

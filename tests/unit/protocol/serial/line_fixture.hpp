@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "protocol/serial/line_driver.hpp"
+#include "tests/support/patience.hpp"
 #include "tests/unit/protocol/serial/toy_discipline.hpp"
 
 namespace dripline::serial {
@@ -26,7 +27,7 @@ struct LineLog {
   std::string to_send;  ///< offered whenever there is room
 
   template <class Condition>
-  bool wait(Condition condition, std::chrono::milliseconds limit = std::chrono::seconds(60)) {
+  bool wait(Condition condition, std::chrono::milliseconds limit = test_support::kPatience) {
     std::unique_lock lock(mutex);
     return changed.wait_for(lock, limit, condition);
   }

@@ -11,6 +11,7 @@
 #include "server/machines/machine_service.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/fake_server_endpoint.hpp"
+#include "tests/support/patience.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
 namespace dripline::server_test {
@@ -136,7 +137,7 @@ class MachineServiceTest : public ServerTest {
   template <class Thing, class Matches>
   bool wait_notified(const std::vector<Thing>& things, const Matches& matches) {
     std::unique_lock lock(notified_mutex_);
-    return notified_.wait_for(lock, std::chrono::seconds(60),
+    return notified_.wait_for(lock, test_support::kPatience,
                               [&] { return std::any_of(things.begin(), things.end(), matches); });
   }
 

@@ -1,4 +1,5 @@
 // Machines are fed while the database is away, or does not answer.
+#include "tests/support/patience.hpp"
 #include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/machines/machine_fixture.hpp"
 
@@ -30,7 +31,7 @@ class Away {
   /// So many callers hang.
   bool wait_hanging(int callers) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(60), [&] { return waiting_ >= callers; });
+    return changed_.wait_for(lock, test_support::kPatience, [&] { return waiting_ >= callers; });
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "tests/support/patience.hpp"
 #include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
@@ -36,7 +37,7 @@ struct FetchedPrograms final : test_support::ProgramStoreDecorator {
   }
   bool wait(const std::function<bool()>& holds) {
     std::unique_lock lock(mutex);
-    return changed.wait_for(lock, std::chrono::seconds(60), holds);
+    return changed.wait_for(lock, test_support::kPatience, holds);
   }
   bool wait_fetched(std::size_t count) {
     return wait([&] { return fetched.size() >= count; });

@@ -4,6 +4,8 @@
 #include <future>
 #include <stdexcept>
 
+#include "tests/support/patience.hpp"
+
 namespace dripline::machines {
 namespace {
 
@@ -15,7 +17,7 @@ TEST(WorkerPool, TriesATaskThatThrowsAgain) {
     done.set_value(tries);
   });
   auto result = done.get_future();
-  ASSERT_EQ(result.wait_for(std::chrono::seconds(60)), std::future_status::ready);
+  ASSERT_EQ(result.wait_for(test_support::kPatience), std::future_status::ready);
   EXPECT_EQ(result.get(), 2);
 }
 

@@ -11,6 +11,7 @@
 
 #include "server/ports/port_service.hpp"
 #include "tests/support/line/test_line.hpp"
+#include "tests/support/patience.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
 namespace dripline::server_test {
@@ -19,8 +20,6 @@ namespace dripline::server_test {
 /// of cables.
 class PortServiceTest : public ServerTest {
  protected:
-  static constexpr std::chrono::seconds kPatience{60};
-
   PortServiceTest() { catalog_.known.insert(catalog_.known.end(), {"fanuc", "prototrak-plus"}); }
 
   void start_ports(const storage::Store& store, const std::vector<storage::Port>& configured = {}) {
@@ -82,7 +81,7 @@ class PortServiceTest : public ServerTest {
   }
   /// Looks again and again, at most for a minute.
   static bool wait(const std::function<bool()>& is_so) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + test_support::kPatience;
     while (!is_so()) {
       if (std::chrono::steady_clock::now() > end) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
