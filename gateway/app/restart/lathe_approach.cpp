@@ -8,6 +8,7 @@ namespace dripline::gateway {
 
 using interpreter::Axis;
 using interpreter::kAllAxes;
+using interpreter::PlaneVector;
 using interpreter::Position;
 
 namespace {
@@ -16,20 +17,19 @@ constexpr double kUnmoved = 0.002;  ///< millimeters: of an axis that was not jo
 /// More are no path that an operator can check on a screen.
 constexpr std::size_t kMaxApproachMoves = 16;
 
-PlanePlace plane_place(const Position& position) {
-  return {position.raw(Axis::X), position.raw(Axis::Z)};
+PlaneVector plane_place(const Position& position) {
+  return in_plane(position, kLathePlane);
 }
 
-Position plane_position(PlanePlace place) {
+Position plane_position(PlaneVector place) {
   Position position;
-  position.set_raw(Axis::X, place.x);
-  position.set_raw(Axis::Z, place.z);
+  set_in_plane(position, kLathePlane, place);
   return position;
 }
 
 /// As the operator keys it in, in millimeters.
-std::string plane_text(PlanePlace place) {
-  return fmt::format("X{:.3f} Z{:.3f}", 2 * place.x, place.z);
+std::string plane_text(PlaneVector place) {
+  return fmt::format("X{:.3f} Z{:.3f}", 2 * place.second, place.first);
 }
 
 }  // namespace
@@ -47,12 +47,12 @@ void Approach::add_route(Plan& plan, const std::vector<PassedMove>& route) const
 /// from where the run stopped.
 bool Approach::add_passed(Plan& plan) const {
   if (passed == nullptr || passed->has_other_tool()) return false;
-  const PlanePlace now = plane_place(from), target = plane_place(to);
+  const PlaneVector now = plane_place(from), target = plane_place(to);
   auto route = passed_route(passed->moves(), now, target);
   if (!route && stopped_at) {
-    PlanePlace stop = plane_place(*stopped_at);
-    const bool is_one_axis =
-        std::fabs(now.x - stop.x) <= kUnmoved || std::fabs(now.z - stop.z) <= kUnmoved;
+    PlaneVector stop = plane_place(*stopped_at);
+    const bool is_one_axis = std::fabs(now.second - stop.second) <= kUnmoved ||
+                             std::fabs(now.first - stop.first) <= kUnmoved;
     if (!is_one_axis) return false;
     if (is_near(stop, target)) {
       stop = target;
@@ -71,23 +71,24 @@ bool Approach::add_passed(Plan& plan) const {
 /// a bar and a chuck that are not there are not here.
 bool Approach::is_beyond_all() const {
   if (passed == nullptr || !passed->taken_up_at()) return false;
-  const PlanePlace out = *passed->taken_up_at(), now = plane_place(from);
+  const PlaneVector out = *passed->taken_up_at(), now = plane_place(from);
   if (is_near(now, out)) return true;
-  if (now.x < out.x - kNearPlace || now.z < out.z - kNearPlace) return false;
+  if (now.second < out.second - kNearPlace || now.first < out.first - kNearPlace) return false;
   for (const PassedMove& move : passed->moves())
-    if (move.to.x > out.x + kNearPlace || move.to.z > out.z + kNearPlace) return false;
+    if (move.to.second > out.second + kNearPlace || move.to.first > out.first + kNearPlace)
+      return false;
   return true;
 }
 
 bool Approach::add_from_outside(Plan& plan) const {
   if (!is_beyond_all()) return false;
-  const PlanePlace now = plane_place(from), out = *passed->taken_up_at();
+  const PlaneVector now = plane_place(from), out = *passed->taken_up_at();
   const auto route = passed_route(passed->moves(), out, plane_place(to));
   const bool is_there = is_near(out, plane_place(to));
   if (!is_there && (!route || route->size() > kMaxApproachMoves)) return false;
   for (const Axis axis : {Axis::X, Axis::Z}) {
-    const double value = axis == Axis::X ? out.x : out.z;
-    if (std::fabs(value - (axis == Axis::X ? now.x : now.z)) <= kUnmoved) continue;
+    const double value = axis == Axis::X ? out.second : out.first;
+    if (std::fabs(value - (axis == Axis::X ? now.second : now.first)) <= kUnmoved) continue;
     Position position;
     position.set_raw(axis, value);
     plan.before.push_back({position, {}, {}});

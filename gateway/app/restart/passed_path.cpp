@@ -9,6 +9,7 @@ namespace dripline::gateway {
 
 using interpreter::Axis;
 using interpreter::kAllAxes;
+using interpreter::PlaneVector;
 using interpreter::Position;
 
 namespace {
@@ -44,9 +45,9 @@ void PassedPath::begin(const Begin& begin) {
   if (begin.is_begin_of_run) taken_up_at_ = place();
 }
 
-std::optional<PlanePlace> PassedPath::place() const {
+std::optional<PlaneVector> PassedPath::place() const {
   if (!at_.has(Axis::X) || !at_.has(Axis::Z)) return std::nullopt;
-  return PlanePlace{at_.raw(Axis::X), at_.raw(Axis::Z)};
+  return in_plane(at_, kLathePlane);
 }
 
 /// What was free before may be no more, or is not known. Where the tool was taken up it still is,
@@ -177,7 +178,7 @@ void PassedPath::stop_at(const std::optional<Position>& stopped) {
   const std::vector<PassedMove> made = std::exchange(last_moves_, {});
   if (is_lost_) moves_.clear();
   if (!stopped || is_lost_) return;
-  const PlanePlace rest{stopped->raw(Axis::X), stopped->raw(Axis::Z)};
+  const PlaneVector rest = in_plane(*stopped, kLathePlane);
   const auto last = std::ranges::find_if(
       made, [&](const PassedMove& move) { return move.part_at(rest, kNearPlace).has_value(); });
   if (last == made.end()) return;

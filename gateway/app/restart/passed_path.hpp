@@ -39,7 +39,7 @@ class PassedPath final : public interpreter::EventSink {
   /// Those that were made; none where they are not known to be free any more.
   const std::vector<PassedMove>& moves() const { return moves_; }
   /// Where the tool was taken up, or the run began, if the moves begin there.
-  std::optional<PlanePlace> taken_up_at() const { return taken_up_at_; }
+  std::optional<interpreter::PlaneVector> taken_up_at() const { return taken_up_at_; }
   /// Another tool was taken up after the target.
   bool has_other_tool() const { return has_other_tool_; }
 
@@ -72,13 +72,13 @@ class PassedPath final : public interpreter::EventSink {
   void keep(const interpreter::Origin& origin, const PassedMove& move);
   bool moves_others(const interpreter::Position& to) const;
   void begin_again(std::uint64_t block);
-  std::optional<PlanePlace> place() const;
+  std::optional<interpreter::PlaneVector> place() const;
 
   Begin given_;
   interpreter::Position at_;
   std::vector<PassedMove> moves_;
   std::vector<PassedMove> last_moves_;  ///< of the block that the run was in
-  std::optional<PlanePlace> taken_up_at_;
+  std::optional<interpreter::PlaneVector> taken_up_at_;
   bool is_lost_ = false, has_other_tool_ = false;
   std::uint64_t ended_ = 0;
   bool has_continued_ = false;

@@ -10,52 +10,42 @@
 namespace dripline::gateway {
 
 using interpreter::PathArc;
+using interpreter::PlaneVector;
 using interpreter::Turn;
 
 namespace {
 
 constexpr double kSamePoint = 1e-6;  ///< millimeters: of computed points
 
-PlanePlace difference(PlanePlace a, PlanePlace b) {
-  return {a.x - b.x, a.z - b.z};
-}
-double dot(PlanePlace a, PlanePlace b) {
-  return a.x * b.x + a.z * b.z;
-}
-double cross(PlanePlace a, PlanePlace b) {
-  return a.x * b.z - a.z * b.x;
+PlaneVector center_of(const PathArc& arc) {
+  return {arc.center_first.mm(), arc.center_second.mm()};
 }
 
-double arc_angle(const PathArc& arc, PlanePlace place) {
-  return std::atan2(place.x - arc.center_second.mm(), place.z - arc.center_first.mm());
+double arc_angle(const PathArc& arc, PlaneVector place) {
+  const PlaneVector off = place - center_of(arc);
+  return std::atan2(off.second, off.first);
 }
 
 double move_length(const PassedMove& move) {
-  if (!move.arc) return distance(move.from, move.to);
-  const PlanePlace center{move.arc->center_second.mm(), move.arc->center_first.mm()};
-  return distance(move.from, center) * std::fabs(move.arc->sweep.radians());
+  if (!move.arc) return length(move.to - move.from);
+  return length(move.from - center_of(*move.arc)) * std::fabs(move.arc->sweep.radians());
 }
 
 }  // namespace
 
-double distance(PlanePlace a, PlanePlace b) {
-  return std::hypot(a.x - b.x, a.z - b.z);
-}
-
-PlanePlace PassedMove::at(double part) const {
+PlaneVector PassedMove::at(double part) const {
   if (part <= 0) return from;
   if (part >= 1) return to;
-  if (!arc) return {from.x + part * (to.x - from.x), from.z + part * (to.z - from.z)};
-  const PlanePlace center{arc->center_second.mm(), arc->center_first.mm()};
-  const double radius = distance(from, center);
+  if (!arc) return from + part * (to - from);
+  const double radius = length(from - center_of(*arc));
   const double turn = part * std::fabs(arc->sweep.radians());
   const double angle = arc_angle(*arc, from) + (arc->turn == Turn::Counterclockwise ? turn : -turn);
-  return {center.x + radius * std::sin(angle), center.z + radius * std::cos(angle)};
+  return center_of(*arc) + radius * PlaneVector{std::cos(angle), std::sin(angle)};
 }
 
-std::optional<double> PassedMove::part_at(PlanePlace place, double tolerance) const {
-  if (distance(place, from) <= tolerance) return 0;
-  if (distance(place, to) <= tolerance) return 1;
+std::optional<double> PassedMove::part_at(PlaneVector place, double tolerance) const {
+  if (length(place - from) <= tolerance) return 0;
+  if (length(place - to) <= tolerance) return 1;
   double part = 0;
   if (arc) {
     const double full = std::fabs(arc->sweep.radians());
@@ -65,11 +55,11 @@ std::optional<double> PassedMove::part_at(PlanePlace place, double tolerance) co
     if (turned < 0) turned += 2 * Angle::kPi;
     part = full > 0 ? turned / full : 2;
   } else {
-    const PlanePlace along = difference(to, from);
+    const PlaneVector along = to - from;
     const double square = dot(along, along);
-    part = square > 0 ? dot(difference(place, from), along) / square : 2;
+    part = square > 0 ? dot(place - from, along) / square : 2;
   }
-  if (!(part > 0 && part < 1) || distance(at(part), place) > tolerance) return std::nullopt;
+  if (!(part > 0 && part < 1) || length(at(part) - place) > tolerance) return std::nullopt;
   return part;
 }
 
@@ -99,10 +89,10 @@ class MoveNetwork {
   }
   struct Found {
     std::size_t number = 0;
-    PlanePlace place;
+    PlaneVector place;
   };
   /// The nearest place of a move.
-  std::optional<Found> add(PlanePlace place);
+  std::optional<Found> add(PlaneVector place);
   std::optional<std::vector<PassedMove>> shortest(std::size_t from, std::size_t to);
 
  private:
@@ -115,8 +105,8 @@ class MoveNetwork {
     double first = 0, last = 0;
   };
 
-  std::size_t number(PlanePlace place);
-  void cut(std::size_t move, double part, PlanePlace place) {
+  std::size_t number(PlaneVector place);
+  void cut(std::size_t move, double part, PlaneVector place) {
     cuts_[move].push_back({part, number(place)});
   }
   void meet(std::size_t i, std::size_t k);
@@ -126,40 +116,40 @@ class MoveNetwork {
 
   const std::vector<PassedMove>& moves_;
   std::vector<std::vector<Cut>> cuts_;
-  std::vector<PlanePlace> places_;
+  std::vector<PlaneVector> places_;
   std::unordered_multimap<std::int64_t, std::size_t> cells_;
   std::vector<std::vector<Edge>> edges_;
   std::vector<std::pair<std::size_t, Edge>> reached_by_;
 };
 
-std::int64_t cell_of(double x, double z) {
+std::int64_t cell_of(PlaneVector place) {
   constexpr double kCell = 0.001;
-  const auto row = static_cast<std::int64_t>(std::llround(x / kCell));
-  const auto column = static_cast<std::int64_t>(std::llround(z / kCell));
+  const auto row = static_cast<std::int64_t>(std::llround(place.first / kCell));
+  const auto column = static_cast<std::int64_t>(std::llround(place.second / kCell));
   return row * 1'000'003 + column;
 }
 
-std::size_t MoveNetwork::number(PlanePlace place) {
-  for (const double x : {place.x, place.x - kSamePoint, place.x + kSamePoint}) {
-    for (const double z : {place.z, place.z - kSamePoint, place.z + kSamePoint}) {
-      const auto [begin, end] = cells_.equal_range(cell_of(x, z));
+std::size_t MoveNetwork::number(PlaneVector place) {
+  for (const double first : {0.0, -kSamePoint, kSamePoint}) {
+    for (const double second : {0.0, -kSamePoint, kSamePoint}) {
+      const auto [begin, end] = cells_.equal_range(cell_of(place + PlaneVector{first, second}));
       for (auto found = begin; found != end; ++found) {
-        if (distance(places_[found->second], place) <= kSamePoint) return found->second;
+        if (length(places_[found->second] - place) <= kSamePoint) return found->second;
       }
     }
   }
-  cells_.emplace(cell_of(place.x, place.z), places_.size());
+  cells_.emplace(cell_of(place), places_.size());
   places_.push_back(place);
   return places_.size() - 1;
 }
 
-std::optional<MoveNetwork::Found> MoveNetwork::add(PlanePlace place) {
-  std::optional<PlanePlace> nearest;
+std::optional<MoveNetwork::Found> MoveNetwork::add(PlaneVector place) {
+  std::optional<PlaneVector> nearest;
   for (const PassedMove& move : moves_) {
     const auto part = move.part_at(place, kNearPlace);
     if (!part) continue;
-    const PlanePlace found = move.at(*part);
-    if (!nearest || distance(found, place) < distance(*nearest, place)) nearest = found;
+    const PlaneVector found = move.at(*part);
+    if (!nearest || length(found - place) < length(*nearest - place)) nearest = found;
   }
   if (!nearest) return std::nullopt;
   for (std::size_t i = 0; i < moves_.size(); ++i) {
@@ -169,30 +159,35 @@ std::optional<MoveNetwork::Found> MoveNetwork::add(PlanePlace place) {
 }
 
 void MoveNetwork::cut_at_ends(std::size_t move, const PassedMove& other) {
-  for (const PlanePlace place : {other.from, other.to}) {
+  for (const PlaneVector place : {other.from, other.to}) {
     const auto part = moves_[move].part_at(place, kSamePoint);
     if (part) cut(move, *part, place);
   }
 }
 
-/// Sides along X and Z.
+/// Corners.
 struct Box {
-  PlanePlace low, high;
+  PlaneVector low, high;
 };
 
 Box box_of(const PassedMove& move) {
+  const PlaneVector around{kSamePoint, kSamePoint};
   if (move.arc) {
-    const PlanePlace center{move.arc->center_second.mm(), move.arc->center_first.mm()};
-    const double radius = distance(move.from, center) + kSamePoint;
-    return {{center.x - radius, center.z - radius}, {center.x + radius, center.z + radius}};
+    const PlaneVector center = center_of(*move.arc);
+    const double radius = length(move.from - center);
+    const PlaneVector half = around + PlaneVector{radius, radius};
+    return {center - half, center + half};
   }
-  const auto [x1, x2] = std::minmax(move.from.x, move.to.x);
-  const auto [z1, z2] = std::minmax(move.from.z, move.to.z);
-  return {{x1 - kSamePoint, z1 - kSamePoint}, {x2 + kSamePoint, z2 + kSamePoint}};
+  const auto [left, right] = std::minmax(move.from.first, move.to.first);
+  const auto [below, above] = std::minmax(move.from.second, move.to.second);
+  return {PlaneVector{left, below} - around, PlaneVector{right, above} + around};
 }
 
 bool are_apart(const Box& a, const Box& b) {
-  return a.high.x < b.low.x || b.high.x < a.low.x || a.high.z < b.low.z || b.high.z < a.low.z;
+  const auto is_below = [](PlaneVector one, PlaneVector other) {
+    return one.first < other.first || one.second < other.second;
+  };
+  return is_below(a.high, b.low) || is_below(b.high, a.low);
 }
 
 /// Arcs are cut where another move ends on them, lines also where they cross.
@@ -202,13 +197,13 @@ void MoveNetwork::meet(std::size_t i, std::size_t k) {
   cut_at_ends(i, b);
   cut_at_ends(k, a);
   if (a.arc || b.arc) return;
-  const PlanePlace along = difference(a.to, a.from), other = difference(b.to, b.from);
+  const PlaneVector along = a.to - a.from, other = b.to - b.from;
   const double area = cross(along, other);
   if (std::fabs(area) < 1e-12) return;
-  const double part = cross(difference(b.from, a.from), other) / area;
-  const double part_of_other = cross(difference(b.from, a.from), along) / area;
+  const double part = cross(b.from - a.from, other) / area;
+  const double part_of_other = cross(b.from - a.from, along) / area;
   if (!(part > 0 && part < 1 && part_of_other > 0 && part_of_other < 1)) return;
-  const PlanePlace place = a.at(part);
+  const PlaneVector place = a.at(part);
   cut(i, part, place);
   cut(k, part_of_other, place);
 }
@@ -254,7 +249,7 @@ std::optional<std::vector<PassedMove>> MoveNetwork::shortest(std::size_t from, s
 /// One straight move where pieces continue each other.
 bool join(PassedMove& move, const PassedMove& next) {
   if (move.arc || next.arc || move.is_rapid != next.is_rapid) return false;
-  const PlanePlace a = difference(move.to, move.from), b = difference(next.to, next.from);
+  const PlaneVector a = move.to - move.from, b = next.to - next.from;
   const double lengths = std::sqrt(dot(a, a) * dot(b, b));
   if (dot(a, b) <= 0 || std::fabs(cross(a, b)) > 1e-9 * std::max(lengths, 1.0)) return false;
   move.to = next.to;
@@ -280,16 +275,16 @@ std::vector<PassedMove> MoveNetwork::path_to(std::size_t from, std::size_t to) c
 }  // namespace
 
 std::optional<std::vector<PassedMove>> passed_route(const std::vector<PassedMove>& moves,
-                                                    PlanePlace from, PlanePlace to) {
+                                                    PlaneVector from, PlaneVector to) {
   MoveNetwork network(moves);
   const auto first = network.add(from);
   const auto last = network.add(to);
   if (!first || !last) return std::nullopt;
   auto route = network.shortest(first->number, last->number);
   if (!route) return std::nullopt;
-  if (distance(from, first->place) > kSamePoint)
+  if (length(from - first->place) > kSamePoint)
     route->insert(route->begin(), PassedMove{from, first->place});
-  if (distance(last->place, to) > kSamePoint) route->push_back(PassedMove{last->place, to});
+  if (length(last->place - to) > kSamePoint) route->push_back(PassedMove{last->place, to});
   return route;
 }
 

@@ -15,17 +15,20 @@ namespace dripline::gateway {
 namespace {
 
 using interpreter::Axis;
+using interpreter::PlaneVector;
 using interpreter::Position;
 using testing::HasSubstr;
 
-Position at(PlanePlace place) {
+Position at(PlaneVector place) {
   Position position;
   for (const Axis axis : interpreter::kAllAxes) position.mark(axis);
-  position.set_raw(Axis::X, place.x);
-  position.set_raw(Axis::Z, place.z);
+  set_in_plane(position, kLathePlane, place);
   return position;
 }
-constexpr PlanePlace kHome{100, 150};
+constexpr PlaneVector place(double x, double z) {
+  return {z, x};
+}
+constexpr PlaneVector kHome = place(100, 150);
 
 /// A program as its machine sees it, with the block of each move.
 class Moves final : public interpreter::EventSink {
@@ -57,12 +60,12 @@ class Moves final : public interpreter::EventSink {
   template <class Event>
   void add(const Event& event, PassedMove move) {
     move.from = at_;
-    if (event.to.has(Axis::X)) at_.x = event.to.raw(Axis::X);
-    if (event.to.has(Axis::Z)) at_.z = event.to.raw(Axis::Z);
+    if (event.to.has(Axis::X)) at_.second = event.to.raw(Axis::X);
+    if (event.to.has(Axis::Z)) at_.first = event.to.raw(Axis::Z);
     move.to = at_;
     all.push_back({move, event.origin.block});
   }
-  PlanePlace at_ = kHome;
+  PlaneVector at_ = kHome;
 };
 
 void run(const std::string& program, interpreter::EventSink& sink) {
@@ -78,7 +81,7 @@ void run(const std::string& program, interpreter::EventSink& sink) {
 /// A run that stopped in a block; `to` is where that block began.
 struct Stopped {
   PassedPath passed;
-  PlanePlace stop, to;
+  PlaneVector stop, to;
   std::size_t move = 0;  ///< within which it stopped
   std::uint64_t block = 0;
 };
@@ -100,7 +103,7 @@ Stopped stop_in(const std::string& program, const Moves& moves, std::size_t move
   return stopped;
 }
 
-Approach::Plan plan_from(const Stopped& stopped, PlanePlace now) {
+Approach::Plan plan_from(const Stopped& stopped, PlaneVector now) {
   Approach approach;
   approach.is_lathe = true;
   approach.from = at(now);
@@ -113,13 +116,13 @@ Approach::Plan plan_from(const Stopped& stopped, PlanePlace now) {
 }
 
 /// The moves of a plan; those before the spindle is on are no cuts.
-std::vector<PassedMove> moves_of(const Approach::Plan& plan, PlanePlace now) {
+std::vector<PassedMove> moves_of(const Approach::Plan& plan, PlaneVector now) {
   std::vector<PassedMove> moves;
   for (const auto* part : {&plan.before, &plan.after}) {
     for (const ApproachMove& one : *part) {
       PassedMove move{now, now, !one.feed, one.arc};
-      if (one.to.has(Axis::X)) move.to.x = one.to.raw(Axis::X);
-      if (one.to.has(Axis::Z)) move.to.z = one.to.raw(Axis::Z);
+      if (one.to.has(Axis::X)) move.to.second = one.to.raw(Axis::X);
+      if (one.to.has(Axis::Z)) move.to.first = one.to.raw(Axis::Z);
       now = move.to;
       moves.push_back(move);
     }
@@ -162,24 +165,26 @@ class StoppedRuns {
     const std::size_t move = random_() % moves.all.size();
     const Stopped stopped = stop_in(program.text, moves, move, between(0, 1));
     const LatheStock stock = stock_of(moves, stopped, program.is_bored);
-    const auto check = [&](PlanePlace now, int& possible) {
+    const auto check = [&](PlaneVector now, int& possible) {
       const bool is_possible = is_free(stopped, stock, now);
       ++(is_possible ? possible : counts.refused);
       return is_possible;
     };
     if (!moves.all[move].is_thread && !check(stopped.stop, counts.from_stop)) ++counts.no_path;
     check(kHome, counts.from_home);
-    check({kHome.x + between(0, 50), kHome.z + between(0, 50)}, counts.from_home);
+    const double outward = between(0, 50), along = between(0, 50);
+    check(kHome + place(outward, along), counts.from_home);
     const double out = program.is_bored ? -between(0, 2) : between(0, 60);
-    const PlanePlace jogged{stopped.stop.x + out, stopped.stop.z};
+    const PlaneVector jogged = stopped.stop + place(out, 0);
     if (stock.depth_of({stopped.stop, jogged}) < 0.05) check(jogged, counts.jogged);
     for (int i = 0; i < 20; ++i) {
-      const PlanePlace elsewhere{between(0, 120), between(-60, 170)};
+      const double x = between(0, 120), z = between(-60, 170);
+      const PlaneVector elsewhere = place(x, z);
       if (stock.depth_at(elsewhere) == 0) check(elsewhere, counts.elsewhere);
     }
   }
   /// There is an approach, and it leads through nothing that the program has left; false: none.
-  static bool is_free(const Stopped& stopped, const LatheStock& stock, PlanePlace now) {
+  static bool is_free(const Stopped& stopped, const LatheStock& stock, PlaneVector now) {
     const Approach::Plan plan = plan_from(stopped, now);
     const auto moves = moves_of(plan, now);
     if (!plan.fault.empty()) {
@@ -189,11 +194,12 @@ class StoppedRuns {
     for (const PassedMove& move : moves) {
       // A tool that stopped in a cut touches what it cuts.
       EXPECT_LT(stock.depth_of(move), 0.12)
-          << (move.is_rapid ? "rapid" : "feed") << " X" << 2 * move.from.x << " Z" << move.from.z
-          << " to X" << 2 * move.to.x << " Z" << move.to.z << " from X" << 2 * now.x << " Z"
-          << now.z << " stopped at X" << 2 * stopped.stop.x << " Z" << stopped.stop.z;
+          << (move.is_rapid ? "rapid" : "feed") << " X" << 2 * move.from.second << " Z"
+          << move.from.first << " to X" << 2 * move.to.second << " Z" << move.to.first << " from X"
+          << 2 * now.second << " Z" << now.first << " stopped at X" << 2 * stopped.stop.second
+          << " Z" << stopped.stop.first;
     }
-    EXPECT_LT(distance(moves.empty() ? now : moves.back().to, stopped.to), 1e-6);
+    EXPECT_LT(length((moves.empty() ? now : moves.back().to) - stopped.to), 1e-6);
     return true;
   }
 
@@ -228,20 +234,21 @@ TEST(LatheApproach, GoesBackOutOfAPocket) {
   const auto back = moves_of(plan_from(stopped, stopped.stop), stopped.stop);
   ASSERT_EQ(back.size(), 1U);
   EXPECT_FALSE(back[0].is_rapid);
-  EXPECT_EQ(back[0].to.x, 15);
-  EXPECT_EQ(back[0].to.z, -20);
-  const auto jogged = moves_of(plan_from(stopped, {60, stopped.stop.z}), {60, stopped.stop.z});
+  EXPECT_EQ(back[0].to.second, 15);
+  EXPECT_EQ(back[0].to.first, -20);
+  const auto jogged =
+      moves_of(plan_from(stopped, place(60, stopped.stop.first)), place(60, stopped.stop.first));
   ASSERT_EQ(jogged.size(), 2U) << "straight to where it stopped, then back";
-  EXPECT_EQ(jogged[0].to.x, stopped.stop.x);
-  const auto home = moves_of(plan_from(stopped, {110, 160}), {110, 160});
+  EXPECT_EQ(jogged[0].to.second, stopped.stop.second);
+  const auto home = moves_of(plan_from(stopped, place(110, 160)), place(110, 160));
   ASSERT_EQ(home.size(), 5U);
-  EXPECT_EQ(home[0].to.x, 100) << "X first";
-  EXPECT_EQ(home[1].to.z, 150);
+  EXPECT_EQ(home[0].to.second, 100) << "X first";
+  EXPECT_EQ(home[1].to.first, 150);
   EXPECT_TRUE(home[2].is_rapid);
-  EXPECT_EQ(home[2].to.x, 25);
-  EXPECT_EQ(home[2].to.z, -10);
+  EXPECT_EQ(home[2].to.second, 25);
+  EXPECT_EQ(home[2].to.first, -10);
   EXPECT_FALSE(home[3].is_rapid);
-  const std::string fault = plan_from(stopped, {60, 5}).fault;
+  const std::string fault = plan_from(stopped, place(60, 5)).fault;
   EXPECT_THAT(fault, HasSubstr("the axes are at X120.000 Z5.000"));
   EXPECT_THAT(fault, HasSubstr("to X30.000 Z-20.000, where the program continues"));
   EXPECT_THAT(fault, HasSubstr("or to X200.000 Z150.000, where the program took it up"));
@@ -276,9 +283,10 @@ TEST(LatheApproach, AnotherToolIsTakenUpOnlyWhereTheProgramDidIt) {
                         .at = at(kHome),
                         .is_begin_of_run = true});
   run(program, stopped.passed);
-  stopped.stop = {25, -20};
+  stopped.stop = place(25, -20);
   stopped.passed.stop_at(at(stopped.stop));
-  EXPECT_THAT(plan_from(stopped, {25, -20}).fault, HasSubstr("another tool is in its position"));
+  EXPECT_THAT(plan_from(stopped, place(25, -20)).fault,
+              HasSubstr("another tool is in its position"));
   EXPECT_EQ(plan_from(stopped, kHome).fault, "");
 }
 
@@ -332,9 +340,9 @@ TEST(PassedPath, KnowsWhenItIsInAThread) {
   passed.begin(
       {.target = executed, .executed = executed, .at = at(kHome), .is_begin_of_run = true});
   run(program, passed);
-  EXPECT_TRUE(passed.is_in_thread(at({20, -10})));
-  EXPECT_FALSE(passed.is_in_thread(at({20, 5}))) << "where it begins";
-  EXPECT_FALSE(passed.is_in_thread(at({22, -10})));
+  EXPECT_TRUE(passed.is_in_thread(at(place(20, -10))));
+  EXPECT_FALSE(passed.is_in_thread(at(place(20, 5)))) << "where it begins";
+  EXPECT_FALSE(passed.is_in_thread(at(place(22, -10))));
 }
 
 }  // namespace
