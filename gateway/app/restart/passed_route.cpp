@@ -77,22 +77,57 @@ PassedMove PassedMove::piece(double first, double last) const {
 
 namespace {
 
+/// Corners.
+struct Box {
+  PlaneVector low, high;
+};
+
+Box box_of(const PassedMove& move) {
+  const PlaneVector around{kSamePoint, kSamePoint};
+  if (move.arc) {
+    const PlaneVector center = center_of(*move.arc);
+    const double radius = length(move.from - center);
+    const PlaneVector half = around + PlaneVector{radius, radius};
+    return {center - half, center + half};
+  }
+  const auto [left, right] = std::minmax(move.from.first, move.to.first);
+  const auto [below, above] = std::minmax(move.from.second, move.to.second);
+  return {PlaneVector{left, below} - around, PlaneVector{right, above} + around};
+}
+
+bool are_apart(const Box& a, const Box& b) {
+  const auto is_below = [](PlaneVector one, PlaneVector other) {
+    return one.first < other.first || one.second < other.second;
+  };
+  return is_below(a.high, b.low) || is_below(b.high, a.low);
+}
+
+/// The nearest place of a move.
+std::optional<PlaneVector> nearest_on(const std::vector<PassedMove>& moves, PlaneVector place) {
+  std::optional<PlaneVector> nearest;
+  for (const PassedMove& move : moves) {
+    const auto part = move.part_at(place, kNearPlace);
+    if (!part) continue;
+    const PlaneVector found = move.at(*part);
+    if (!nearest || length(found - place) < length(*nearest - place)) nearest = found;
+  }
+  return nearest;
+}
+
 /// Moves cut where they meet: places, and pieces between them.
 class MoveNetwork {
  public:
   explicit MoveNetwork(const std::vector<PassedMove>& moves) : moves_(moves), cuts_(moves.size()) {
+    boxes_.reserve(moves_.size());
     for (std::size_t i = 0; i < moves_.size(); ++i) {
+      boxes_.push_back(box_of(moves_[i]));
       cut(i, 0, moves_[i].from);
       cut(i, 1, moves_[i].to);
       for (std::size_t k = 0; k < i; ++k) meet(i, k);
     }
   }
-  struct Found {
-    std::size_t number = 0;
-    PlaneVector place;
-  };
-  /// The nearest place of a move.
-  std::optional<Found> add(PlaneVector place);
+  /// A place of a move.
+  std::size_t add(PlaneVector place);
   std::optional<std::vector<PassedMove>> shortest(std::size_t from, std::size_t to);
 
  private:
@@ -116,6 +151,7 @@ class MoveNetwork {
 
   const std::vector<PassedMove>& moves_;
   std::vector<std::vector<Cut>> cuts_;
+  std::vector<Box> boxes_;
   std::vector<PlaneVector> places_;
   std::unordered_multimap<std::int64_t, std::size_t> cells_;
   std::vector<std::vector<Edge>> edges_;
@@ -143,19 +179,11 @@ std::size_t MoveNetwork::number(PlaneVector place) {
   return places_.size() - 1;
 }
 
-std::optional<MoveNetwork::Found> MoveNetwork::add(PlaneVector place) {
-  std::optional<PlaneVector> nearest;
-  for (const PassedMove& move : moves_) {
-    const auto part = move.part_at(place, kNearPlace);
-    if (!part) continue;
-    const PlaneVector found = move.at(*part);
-    if (!nearest || length(found - place) < length(*nearest - place)) nearest = found;
-  }
-  if (!nearest) return std::nullopt;
+std::size_t MoveNetwork::add(PlaneVector place) {
   for (std::size_t i = 0; i < moves_.size(); ++i) {
-    if (const auto part = moves_[i].part_at(*nearest, kSamePoint)) cut(i, *part, *nearest);
+    if (const auto part = moves_[i].part_at(place, kSamePoint)) cut(i, *part, place);
   }
-  return Found{number(*nearest), *nearest};
+  return number(place);
 }
 
 void MoveNetwork::cut_at_ends(std::size_t move, const PassedMove& other) {
@@ -165,35 +193,10 @@ void MoveNetwork::cut_at_ends(std::size_t move, const PassedMove& other) {
   }
 }
 
-/// Corners.
-struct Box {
-  PlaneVector low, high;
-};
-
-Box box_of(const PassedMove& move) {
-  const PlaneVector around{kSamePoint, kSamePoint};
-  if (move.arc) {
-    const PlaneVector center = center_of(*move.arc);
-    const double radius = length(move.from - center);
-    const PlaneVector half = around + PlaneVector{radius, radius};
-    return {center - half, center + half};
-  }
-  const auto [left, right] = std::minmax(move.from.first, move.to.first);
-  const auto [below, above] = std::minmax(move.from.second, move.to.second);
-  return {PlaneVector{left, below} - around, PlaneVector{right, above} + around};
-}
-
-bool are_apart(const Box& a, const Box& b) {
-  const auto is_below = [](PlaneVector one, PlaneVector other) {
-    return one.first < other.first || one.second < other.second;
-  };
-  return is_below(a.high, b.low) || is_below(b.high, a.low);
-}
-
 /// Arcs are cut where another move ends on them, lines also where they cross.
 void MoveNetwork::meet(std::size_t i, std::size_t k) {
+  if (are_apart(boxes_[i], boxes_[k])) return;
   const PassedMove &a = moves_[i], &b = moves_[k];
-  if (are_apart(box_of(a), box_of(b))) return;
   cut_at_ends(i, b);
   cut_at_ends(k, a);
   if (a.arc || b.arc) return;
@@ -276,15 +279,15 @@ std::vector<PassedMove> MoveNetwork::path_to(std::size_t from, std::size_t to) c
 
 std::optional<std::vector<PassedMove>> passed_route(const std::vector<PassedMove>& moves,
                                                     PlaneVector from, PlaneVector to) {
-  MoveNetwork network(moves);
-  const auto first = network.add(from);
-  const auto last = network.add(to);
+  const auto first = nearest_on(moves, from), last = nearest_on(moves, to);
   if (!first || !last) return std::nullopt;
-  auto route = network.shortest(first->number, last->number);
+  MoveNetwork network(moves);
+  const std::size_t begin = network.add(*first);
+  const std::size_t end = network.add(*last);
+  auto route = network.shortest(begin, end);
   if (!route) return std::nullopt;
-  if (length(from - first->place) > kSamePoint)
-    route->insert(route->begin(), PassedMove{from, first->place});
-  if (length(last->place - to) > kSamePoint) route->push_back(PassedMove{last->place, to});
+  if (length(from - *first) > kSamePoint) route->insert(route->begin(), PassedMove{from, *first});
+  if (length(*last - to) > kSamePoint) route->push_back(PassedMove{*last, to});
   return route;
 }
 
