@@ -31,9 +31,7 @@ Position between(const Position& from, const Position& to, double part) {
 }
 
 double linear_distance(const Position& a, const Position& b) {
-  double sum = 0;
-  for (const Axis axis : kLinear) sum += std::pow(a.raw(axis) - b.raw(axis), 2);
-  return std::sqrt(sum);
+  return std::sqrt(product(a, b, b));
 }
 
 }  // namespace

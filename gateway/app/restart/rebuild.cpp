@@ -32,9 +32,9 @@ Rebuild::Rebuild(Parts parts) : parts_(std::move(parts)) {
   report_.at = parts_.plan.at;
   report_.cut_off_at = parts_.plan.ending.executed.executed;
   report_.on_record = parts_.plan.on_record;
-  report_.machine = parts_.machine.status().axes();
-  report_.stopped_at = parts_.plan.ending.stopped_at;
   const machine::MachineStatus status = parts_.machine.status();
+  report_.machine = status.axes();
+  report_.stopped_at = parts_.plan.ending.stopped_at;
   in_spindle_.tool = status.tool;
   in_spindle_.lengths = {.of_axes = status.lengths, .of_tool = status.lengths};
 }

@@ -8,7 +8,6 @@ namespace dripline::gateway {
 namespace {
 
 constexpr double kSamePosition = 1e-9;  ///< millimeters or degrees
-constexpr double kSameAxes = 0.002;     ///< the same axes report the same
 constexpr double kMoved = 0.05;         ///< more than axes move while they come to rest
 
 }  // namespace

@@ -110,14 +110,13 @@ std::string_view words_of(machine::PositionTrust trust) {
 /// of the run, or it is refused.
 Result<void> check_trust(RestartPlan& plan, const PresentState& present) {
   using machine::PositionTrust;
-  constexpr double kSamePlace = 0.002;  // mm or degrees; the same axes report the same
   const std::uint64_t executed = plan.ending.executed.executed;
   if (plan.at.kind == Kind::Block || plan.known_target() != executed) return {};
   if (present.trust == PositionTrust::Kept || present.trust == PositionTrust::Homed) return {};
   const auto& stopped = plan.ending.stopped_at;
   const auto& now = present.conditions.begun_at;
   const auto differs = [&](interpreter::Axis axis) {
-    return std::fabs(stopped->raw(axis) - now.raw(axis)) > kSamePlace;
+    return std::fabs(stopped->raw(axis) - now.raw(axis)) > kSameAxes;
   };
   // The count of a board that was only stopped while it moved is the same, and says nothing.
   const bool may_be_kept = present.trust == PositionTrust::Reconnected && stopped;

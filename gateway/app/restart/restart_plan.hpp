@@ -19,6 +19,9 @@ struct PresentState {
   std::string memory;  ///< digest of what the control keeps
 };
 
+/// The same axes report the same, in millimeters or degrees.
+inline constexpr double kSameAxes = 0.002;
+
 /// A restart that can begin: the run that was cut off, and its checkpoints.
 struct RestartPlan {
   report::ActiveRun original;
