@@ -34,7 +34,8 @@ std::vector<MemoryCell> FanucInterpreter::memory_cells() const {
 
 bool FanucInterpreter::read_memory(std::vector<double>& values) {
   bool has_changed = values.empty();
-  has_changed |= note(known_memory_.commons, run_.state.commons);
+  if (!run_.options.reset_clears_commons)
+    has_changed |= note(known_memory_.commons, run_.state.commons);
   has_changed |= note(known_memory_.kept, run_.state.kept);
   if (!run_.state.extra.empty()) {
     has_changed |= known_memory_.extra.size() != run_.state.extra.size() ||
@@ -65,13 +66,14 @@ std::vector<std::string> FanucInterpreter::live_names() const {
 bool FanucInterpreter::read_live(std::vector<double>& values) {
   const Locals& locals = run_.state.locals.back();
   const auto& commons = run_.state.commons;
+  const bool shows_commons = run_.options.reset_clears_commons;
   bool has_changed = !known_live_;
   if (!known_live_) known_live_ = KnownLive{locals, commons};
   has_changed |= note(known_live_->locals, locals);
-  has_changed |= note(known_live_->commons, commons);
+  if (shows_commons) has_changed |= note(known_live_->commons, commons);
   if (!has_changed) return false;
   values.assign(locals.begin(), locals.end());
-  if (run_.options.reset_clears_commons) {
+  if (shows_commons) {
     const auto count = static_cast<std::ptrdiff_t>(run_.options.last_common) - 99;
     values.insert(values.end(), commons.begin(), commons.begin() + count);
   }
