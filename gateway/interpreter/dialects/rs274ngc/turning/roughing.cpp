@@ -37,7 +37,6 @@ class Roughing {
     for (const ContourPiece& piece : plan.contour) add_piece(profile_, piece);
     const ProfilePoint end = profile_.back().to;
     if (end.depth < here_.depth) add_line(profile_, end, {here_.depth, end.along});
-    tops_ = {here_.depth};
   }
 
   bool make() {
@@ -112,7 +111,7 @@ class Roughing {
   }
   /// Down to where the contour comes up.
   bool cut_pocket() {
-    double level = tops_.back();
+    double level = top_.value_or(plan_.start.second);
     while (at_ < profile_.size() && goes_down(profile_[at_])) {
       if (!has_room()) return false;
       if (level - limits_.same > here_.depth) {
@@ -173,17 +172,14 @@ class Roughing {
   }
 
   /// The level from which the next pocket's cuts count.
-  void note_top() {
-    if (here_.depth > tops_.back() && tops_.size() > 1) tops_.pop_back();
-    if (tops_.size() == 1) tops_.push_back(here_.depth);
-  }
+  void note_top() { top_ = std::max(top_.value_or(here_.depth), here_.depth); }
 
   const RoughingPlan& plan_;
   const ContourLimits& limits_;
   ProfilePieces profile_;
   ProfilePoint here_;
-  std::size_t at_ = 0;  ///< the piece that the tool is on
-  std::vector<double> tops_;
+  std::size_t at_ = 0;         ///< the piece that the tool is on
+  std::optional<double> top_;  ///< the highest that was noted; until then the start counts
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::size_t followed_ = kNone;  ///< the piece that the last move has followed to its end
   CutMoves moves_;
