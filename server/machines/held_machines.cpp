@@ -110,7 +110,7 @@ bool HoldReasons::drop_if_over(const MachineView& view) {
     entry.is_seen = true;
     return false;
   }
-  if (!view.is_connected || view.is_stale) return false;  // the status is an old one
+  if (!view.is_heard()) return false;  // the status is an old one
   if (!entry.is_seen && parts_.clock.steady_now() - entry.given < kTakesEffect) return false;
   entries_.erase(known);
   return true;

@@ -41,6 +41,8 @@ struct MachineView {
   std::optional<storage::MachineHold> held = {};
   std::optional<storage::JobHold> queue_hold = {};
 
+  /// What is shown is what is: its gateway is connected, and its statuses arrive.
+  bool is_heard() const { return is_connected && !is_stale; }
   /// Its gateway says that its control is at the end of a line.
   bool has_gateway_line() const { return status && status->serial_line; }
   /// Its control is at the end of a line, of the server's or of its gateway's: no setup goes with a

@@ -69,7 +69,7 @@ void RunReconciler::judge(const std::string& run, const MachineView& view) {
     return;
   }
   // Of two gateways that claim the machine, the one that is not heard may have the run.
-  const bool is_absent = view.is_connected && !view.is_contested && !view.is_stale && view.status &&
+  const bool is_absent = view.is_heard() && !view.is_contested && view.status &&
                          view.status->outbox == 0 && !parts_.commands.is_waiting_for(run);
   if (is_absent_for_long(run, is_absent)) give_up(run);
 }

@@ -100,7 +100,7 @@ Result<void> SparkplugNode::publish_states() {
   while (under_way_ < options_.window) {
     const auto view = queue_.take(parts_.clock.steady_now());
     if (!view) return {};
-    const auto message = session_.report(view->machine.name, view->is_connected && !view->is_stale,
+    const auto message = session_.report(view->machine.name, view->is_heard(),
                                          metrics_of(parts_.status_json(*view)), parts_.clock.now());
     if (!message) continue;
     if (auto published = publish(*message); !published) return published;

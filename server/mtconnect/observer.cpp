@@ -215,7 +215,7 @@ void Observer::observe_locked(const machines::MachineView& view, Batch& batch) {
                     .axes = 0};
   if (view.is_connected && view.status) facts.axes = view.status->axes;
   Seen& seen = know(facts, batch);
-  if (!view.is_connected || view.is_stale) {
+  if (!view.is_heard()) {
     if (seen.is_available) lose(seen, batch);
     return;
   }

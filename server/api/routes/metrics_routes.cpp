@@ -192,7 +192,7 @@ void add_machines(MetricsText& out, const std::vector<MachineView>& views) {
   };
   const auto of_status = [&](std::string_view name, std::string_view help, auto&& value) {
     each(name, help, [&](const MachineView& view) -> std::optional<double> {
-      if (!view.is_connected || view.is_stale || !view.status) return std::nullopt;
+      if (!view.is_heard() || !view.status) return std::nullopt;
       return value(*view.status);
     });
   };
@@ -202,7 +202,7 @@ void add_machines(MetricsText& out, const std::vector<MachineView>& views) {
        [](const MachineView& view) { return std::optional(number(view.is_stale)); });
   out.gauge("dripline_machine_execution", "1 for the state that the machine is in.");
   for (const auto& view : views) {
-    if (!view.is_connected || view.is_stale || !view.status) continue;
+    if (!view.is_heard() || !view.status) continue;
     out.sample(1, {{"machine", view.machine.name},
                    {"state", dds::to_string(view.status->execution)},
                    {"control", view.machine.control}});
