@@ -12,6 +12,17 @@ Result<void> MachineService::check_knows(const MachineView& view, dds::CommandAc
               view.machine.name, view.machine.gateway_version, dds::to_string(action));
 }
 
+Result<dds::Command> MachineService::command_with_setup(const MachineView& view,
+                                                        dds::CommandAction action) {
+  const auto setup = setup_of(view);
+  if (!setup) return fail(setup.error());
+  dds::Command command;
+  command.machine = view.machine.name;
+  command.action = action;
+  if (*setup) command.setup = (*setup)->text;
+  return command;
+}
+
 Result<std::string> MachineService::values(const ValueQuery& query) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
@@ -27,16 +38,12 @@ Result<std::string> MachineService::values(const ValueQuery& query) {
                 "machine {}: its gateway {} is older and answers no questions for values",
                 query.machine, view->machine.gateway_version);
   }
-  dds::Command command;
-  command.machine = query.machine;
-  command.action = dds::CommandAction::Query;
   // Before its first run the gateway shows what this would give the control.
-  const auto setup = setup_of(*view);
-  if (!setup) return fail(setup.error());
-  if (*setup) command.setup = (*setup)->text;
-  command.argument = query.beginning;
-  command.value = static_cast<double>(query.passed_over);
-  return parts->commands.ask(std::move(command));
+  auto command = command_with_setup(*view, dds::CommandAction::Query);
+  if (!command) return fail(command.error());
+  command->argument = query.beginning;
+  command->value = static_cast<double>(query.passed_over);
+  return parts->commands.ask(*std::move(command));
 }
 
 /// What a control's screen shows is the setup's, also before the first program of a gateway.
@@ -57,14 +64,10 @@ void MachineService::give_setup(const std::string& machine) {
   const auto view = connected_machine(machine);
   if (parts == nullptr || !view || !view->status || !view->status->screen) return;
   if (view->has_serial_line() || view->is_contested) return;
-  const auto setup = setup_of(*view);
-  if (!setup) return;  // it goes with the next start
-  dds::Command command;
-  command.machine = machine;
-  command.action = dds::CommandAction::Query;
-  if (*setup) command.setup = (*setup)->text;
-  command.value = kPastTheLast;
-  if (const auto sent = parts->commands.send(std::move(command)); !sent)
+  auto command = command_with_setup(*view, dds::CommandAction::Query);
+  if (!command) return;  // it goes with the next start
+  command->value = kPastTheLast;
+  if (const auto sent = parts->commands.send(*std::move(command)); !sent)
     process::log_warning("setup not shown machine={}: {}", machine, sent.error().what);
 }
 
@@ -79,13 +82,7 @@ Result<dds::Command> MachineService::command_at_rest(const std::string& machine,
                 machine);
   }
   if (auto knows = check_knows(*view, action); !knows) return fail(knows.error());
-  const auto setup = setup_of(*view);
-  if (!setup) return fail(setup.error());
-  dds::Command command;
-  command.machine = machine;
-  command.action = action;
-  if (*setup) command.setup = (*setup)->text;
-  return command;
+  return command_with_setup(*view, action);
 }
 
 Result<PositionAnswer> MachineService::position(const PositionRequest& request) {

@@ -110,6 +110,8 @@ class MachineService final : public MachineControl {
   Result<MachineView> machine_for_work(const std::string& name) const;
   Result<storage::Run> make_run(const StartRequest& request, const MachineView& view);
   Result<std::optional<storage::SetupRevision>> setup_of(const MachineView& view);
+  /// With the setup that a start would get.
+  Result<dds::Command> command_with_setup(const MachineView& view, dds::CommandAction action);
   /// Whether its gateway is not older than the command. Errors: Unsupported.
   static Result<void> check_knows(const MachineView& view, dds::CommandAction action);
   /// For a machine without a run, with the setup that a start would get.
