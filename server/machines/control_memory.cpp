@@ -79,7 +79,8 @@ Result<storage::Revision> resolve_called_program(const RunSources& sources, cons
     if (auto good = sources.releases.check_numbering(**pinned); !good) return fail(good.error());
     return std::move(**pinned);
   }
-  const auto calls = sources.store.runs.calls(run.id);
+  Result<std::vector<storage::RunCall>> calls = std::vector<storage::RunCall>{};
+  if (run.number != 0) calls = sources.store.runs.calls(run.id);  // otherwise it is not stored
   if (!calls) return fail(calls.error());
   const auto same = std::ranges::find(*calls, name, &storage::RunCall::name);
   if (same != calls->end()) return kept_revision(sources, run, *same);
