@@ -290,7 +290,6 @@ Result<void> ServerParts::look() {
   if (!is_announced) announce();
   ports.open_due();
   if (is_mtconnect_due) open_due_mtconnect();
-  if (mtconnect) mtconnect->observer().reconcile(machines.machines());
   look_at_machines();
   accounts.store_uses();
   (void)revoke_certificates();
@@ -308,6 +307,7 @@ Result<void> ServerParts::look() {
 
 void ServerParts::look_at_machines() {
   const auto views = machines.machines();
+  if (mtconnect) mtconnect->observer().reconcile(views);
   std::vector<storage::Run> active;
   if (LostMachines::is_any_away(views)) {
     storage::RunFilter filter;
