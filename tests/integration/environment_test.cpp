@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "tests/integration/system.hpp"
+#include "tests/support/preload.hpp"
 #include "tests/support/service_socket.hpp"
 
 namespace dripline::integration {
@@ -12,13 +13,8 @@ namespace {
 
 using nlohmann::json;
 using test_support::eventually;
+using test_support::kCanPreload;
 using test_support::run_to_end;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kCanPreload = false;  // a sanitizer must come first
-#else
-constexpr bool kCanPreload = true;
-#endif
 
 std::string long_program() {
   std::string text = "O0100\nG98 F100\n";

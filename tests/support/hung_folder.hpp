@@ -5,15 +5,10 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/preload.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::test_support {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kCanPreload = false;  // a sanitizer must come first
-#else
-inline constexpr bool kCanPreload = true;
-#endif
 
 /// A hot folder `cam`, and its share, which does not answer when a server that is started meanwhile
 /// moves a file there, until `answer`. One at a time.
