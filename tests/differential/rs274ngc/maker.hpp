@@ -13,6 +13,25 @@ using Ticks = std::int64_t;
 
 std::string text_of(Ticks ticks);
 
+/// How the contour of a lathe cycle lies: `along` grows with the cut, `depth` out of the work.
+struct Lie {
+  bool is_facing = false;
+  Ticks along_sign = 1;
+  Ticks depth_sign = 1;
+
+  Ticks z(Ticks along, Ticks depth) const {
+    return is_facing ? depth_sign * depth : along_sign * along;
+  }
+  Ticks x(Ticks along, Ticks depth) const {
+    return is_facing ? along_sign * along : depth_sign * depth;
+  }
+  /// A valley is counterclockwise in the frame of the cut.
+  const char* arc(bool is_valley) const {
+    const bool is_mirrored = (along_sign * depth_sign < 0) != is_facing;
+    return is_valley != is_mirrored ? "G3" : "G2";
+  }
+};
+
 /// One program in the making. The same number draws the same choices, in the order of the calls.
 class Maker {
  public:
@@ -88,10 +107,7 @@ class Maker {
   std::string later_;  ///< after the end of the main program
   std::string settings_;
   Ticks x_ = 0, y_ = 0, z_ = 0;
-  struct {
-    bool is_facing = false;
-    Ticks along_sign = 1, depth_sign = 1;
-  } turning_;  ///< how the contour of a lathe cycle lies
+  Lie turning_;
   int label_ = 100;
   bool has_break_ = false;
 };

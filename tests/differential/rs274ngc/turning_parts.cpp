@@ -8,32 +8,10 @@
 /// Contours for the lathe cycles G70 to G72: monotonic along the cut, with pockets, arcs, fillets
 /// and chamfers, in all four quarters.
 namespace dripline::differential {
-namespace {
-
-/// How the contour lies: `along` grows with the cut, `depth` out of the work.
-struct Lie {
-  bool is_facing = false;
-  Ticks along_sign = -1;
-  Ticks depth_sign = 1;
-
-  Ticks z(Ticks along, Ticks depth) const {
-    return is_facing ? depth_sign * depth : along_sign * along;
-  }
-  Ticks x(Ticks along, Ticks depth) const {
-    return is_facing ? along_sign * along : depth_sign * depth;
-  }
-  /// A valley is counterclockwise in the frame of the cut.
-  const char* arc(bool is_valley) const {
-    const bool is_mirrored = (along_sign * depth_sign < 0) != is_facing;
-    return is_valley != is_mirrored ? "G3" : "G2";
-  }
-};
-
-}  // namespace
 
 /// A quarter of a circle, or less of it by R: within the upper or the lower half.
 std::string Maker::contour_arc(Ticks run, Ticks rise, Ticks& along, Ticks& depth) {
-  const Lie lie{turning_.is_facing, turning_.along_sign, turning_.depth_sign};
+  const Lie& lie = turning_;
   const bool is_valley = below(2) == 0;
   const Ticks from_along = along, from_depth = depth;
   const auto end = [&](Ticks to_along, Ticks to_depth) {
@@ -62,7 +40,7 @@ std::string Maker::contour_arc(Ticks run, Ticks rise, Ticks& along, Ticks& depth
 
 /// The lines of the contour, from its first point; none of them runs on in the line before.
 std::vector<std::string> Maker::contour(Ticks along, Ticks depth) {
-  const Lie lie{turning_.is_facing, turning_.along_sign, turning_.depth_sign};
+  const Lie& lie = turning_;
   std::vector<std::string> lines{fmt::format("{} X{} Z{}", below(2) == 0 ? "G0" : "G1",
                                              text_of(lie.x(along, depth)),
                                              text_of(lie.z(along, depth)))};
@@ -112,7 +90,7 @@ void Maker::turning() {
   turning_.is_facing = code[2] == '2';
   turning_.along_sign = below(2) == 0 ? -1 : 1;
   turning_.depth_sign = below(2) == 0 ? -1 : 1;
-  const Lie lie{turning_.is_facing, turning_.along_sign, turning_.depth_sign};
+  const Lie& lie = turning_;
   line("G10 L2 P0 R0");
   known_position();
   line("G18 G90 G40");
