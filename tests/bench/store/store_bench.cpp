@@ -3,6 +3,7 @@
 // DRIPLINE_BENCH_POSTGRESQL (the URL of an empty database, with fsync on) the same runs in
 // PostgreSQL, for a comparison in one run.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <stdlib.h>
 #include <filesystem>
 

@@ -235,16 +235,16 @@ class FrameMaker {
       });
     }
     constexpr std::array<std::array<double, 2>, 4> kFactors{{{2, 2}, {0.5, 0.5}, {1, -1}, {2, 1}}};
-    const auto& [first, second] = kFactors[below(kFactors.size())];
+    const std::array<double, 2>& factors = kFactors[below(kFactors.size())];
     const MachinePoint present = frames_.to_program(at_);
     MachinePoint center{number(10), number(10), present[2]};
     line("G51" + word(0, center[0]) + word(1, center[1]) +
-         fmt::format(" I{:.0f} J{:.0f} K1000", first * 1000, second * 1000));
+         fmt::format(" I{:.0f} J{:.0f} K1000", factors[0] * 1000, factors[1] * 1000));
     for (std::size_t i = 0; i < 2; ++i) center[i] = frames_.flat(i, center[i]);
     change([&] {
       frames_.scales = true;
       frames_.center = center;
-      frames_.factor = {first, second, 1};
+      frames_.factor = {factors[0], factors[1], 1};
     });
   }
 

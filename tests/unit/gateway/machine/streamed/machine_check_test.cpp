@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         DifferenceCase{"rate", "the rate of X is 9000 in the setup and 12000 on the machine",
                        [](MachineData& it) { it.axes[0]->max_rate = 9'000; }},
         DifferenceCase{"axis", "the setup has an axis C, the machine has not",
-                       [](MachineData& it) { it.axes[5].emplace(); }},
+                       [](MachineData& it) { it.axes[5] = MachineData::AxisData{}; }},
         DifferenceCase{"spindle", "max_rpm is 8000 in the setup and 6000 on the machine",
                        [](MachineData& it) { it.max_rpm = 8'000; }},
         DifferenceCase{"homing", "homing is off in the setup, the machine must be homed",
