@@ -143,7 +143,8 @@ TEST_F(BackupOfAServer, KilledAtRandomMomentsLeavesGoodOnesAlone) {
         std::chrono::microseconds(std::uniform_int_distribution<>(0, 150'000)(random)));
     system.server().kill();
     system.start_server();
-    for (const auto& backup : state()["backups"]) {
+    const json backups = state()["backups"];
+    for (const auto& backup : backups) {
       if (!backup["verified"].is_null()) continue;
       const std::string id = backup["id"];
       EXPECT_EQ(system.rest().post("/api/v1/backups/" + id + "/verify", json::object()).status,

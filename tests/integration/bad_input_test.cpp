@@ -2,15 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/integration/system.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace dripline::integration {
 namespace {
 
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr bool kIsSanitized = true;  // shadow memory is not the server's
-#else
-constexpr bool kIsSanitized = false;
-#endif
 constexpr std::uint64_t kMemoryBound = 64ull << 20;
 
 class BadInput : public testing::Test {
@@ -24,7 +20,7 @@ class BadInput : public testing::Test {
         << "something was stored";
     EXPECT_EQ(client->get("/api/v1/runs").json()["runs"].size(), 0u) << "a run was made";
     EXPECT_TRUE(system.server().is_running());
-    if (kIsSanitized) return;
+    if (test_support::kIsSanitized) return;  // shadow memory is not the server's
     EXPECT_LT(system.server().peak_memory(), kMemoryBound);
   }
 

@@ -1,12 +1,10 @@
 #pragma once
 
+#include "tests/support/sanitized.hpp"
+
 namespace dripline::test_support {
 
 /// Whether a program under test may get a library preloaded: a sanitizer must come first.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kCanPreload = false;
-#else
-inline constexpr bool kCanPreload = true;
-#endif
+inline constexpr bool kCanPreload = !kIsSanitized;
 
 }  // namespace dripline::test_support
