@@ -1,6 +1,7 @@
 #include "server/ports/line_records.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dripline::ports {
 
@@ -20,6 +21,11 @@ void LineRecords::add(std::vector<Entry> entries) {
     waiting_.push_back(std::move(entry));
   }
   if (writer_.pause().count() == 0) commit();
+}
+
+std::size_t LineRecords::drop() {
+  // Their callbacks can hold this object.
+  return std::exchange(waiting_, {}).size();
 }
 
 /// A former line of this machine may have used numbers of this epoch.

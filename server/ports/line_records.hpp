@@ -41,6 +41,9 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
 
   /// Stores them, at once or later. The caller keeps the number of waiting ones bounded.
   void add(std::vector<Entry> entries);
+  /// At the server's end, when the strand has stopped: what still waits is not tried again. Returns
+  /// how many records that were.
+  std::size_t drop();
   std::size_t waiting() const { return waiting_.size(); }
   std::uint64_t epoch() const { return parts_.epoch; }
 

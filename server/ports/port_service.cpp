@@ -127,6 +127,11 @@ void PortService::end() {
   }
   for (const auto& done : drained) done.wait_for(kDrainLimit);
   pool_.stop();
+  for (const auto& [name, machine] : machines) {
+    if (const std::size_t lost = machine.records->drop(); lost > 0)
+      process::log_error("machine={}: the server ends, {} records of its line are not stored", name,
+                         lost);
+  }
 }
 
 /// Everything that can be wrong with a port by itself.

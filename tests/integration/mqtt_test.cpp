@@ -11,6 +11,7 @@
 #include "storage/sqlite_store.hpp"
 #include "tests/integration/mqtt_broker.hpp"
 #include "tests/support/program_generator.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace dripline::integration {
 namespace {
@@ -169,7 +170,8 @@ TEST_F(Mqtt, ABrokerThatHangsDelaysNothing) {
     EXPECT_EQ(system_.report_lines(id).size(), 3000u) << "stored at once";
   }
   EXPECT_GT(state().value("records_waiting", 0), 8000);
-  EXPECT_LT(system_.server().peak_memory(), memory + (24u << 20)) << "what waits is on the disk";
+  if (!test_support::kIsSanitized)  // it keeps what was freed
+    EXPECT_LT(system_.server().peak_memory(), memory + (24u << 20)) << "what waits is on the disk";
   const auto waiting = state().value("records_waiting", 0);
   const auto begun = std::chrono::steady_clock::now();
   broker_.thaw();
