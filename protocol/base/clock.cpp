@@ -46,11 +46,13 @@ std::string usual_text(UtcTime time) {
 
 std::string to_iso8601(UtcTime time) {
   if (time >= start_of(1000) && time < start_of(10000)) return usual_text(time);
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
-  const auto micros = (time - seconds).count();
-  // Does not use the system clock's nanoseconds: times from outside can exceed their range.
-  const auto whole = static_cast<std::time_t>(seconds.time_since_epoch().count());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:06}Z", fmt::gmtime(whole), micros);
+  // Numbers, not durations: the time before the first whole second, in microseconds, would exceed
+  // them, and so would times from outside in the system clock's nanoseconds.
+  constexpr std::int64_t kMicros = 1'000'000;
+  const std::int64_t count = time.time_since_epoch().count();
+  const std::int64_t micros = (count % kMicros + kMicros) % kMicros;
+  const auto seconds = static_cast<std::time_t>(count / kMicros - (count % kMicros < 0 ? 1 : 0));
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:06}Z", fmt::gmtime(seconds), micros);
 }
 
 namespace {

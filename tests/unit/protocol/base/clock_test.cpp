@@ -34,7 +34,7 @@ TEST(ToIso8601, TakesEveryTimeThatAMessageCanHold) {
   EXPECT_EQ(to_iso8601(at(253'402'300'800'000'000)), "10000-01-01T00:00:00.000000Z");
   EXPECT_EQ(to_iso8601(at(-30'610'224'000'000'000)), "1000-01-01T00:00:00.000000Z");
   EXPECT_EQ(to_iso8601(at(INT64_MAX)), "294247-01-10T04:00:54.775807Z");
-  EXPECT_NE(to_iso8601(at(INT64_MIN)), "");
+  EXPECT_TRUE(to_iso8601(at(INT64_MIN)).ends_with("-12-21T19:59:05.224192Z"));
 }
 
 }  // namespace
