@@ -242,7 +242,8 @@ int print_candidates(const CLI::App& app, Context& context, std::span<const std:
     candidates.words.push_back(std::move(name));
   const std::string current = words.empty() ? "" : words.back();
   for (const std::string& word : candidates.words) {
-    if (word.starts_with(current)) context.print(word + "\n");
+    // Shells put names onto the terminal as they are.
+    if (word.starts_with(current) && printable(word) == word) context.print(word + "\n");
   }
   return kExitOk;
 }

@@ -22,7 +22,15 @@ bool Context::has_color() const {
 }
 
 void Context::print(std::string_view text) const {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (wants_json) return print_content(text);
+  const std::string shown = visible(text);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
+}
+
+void Context::print_content(std::string_view bytes) const {
+  const bool is_terminal = terminal_of(STDOUT_FILENO).is_terminal;
+  const std::string shown = is_terminal ? visible(bytes) : std::string(bytes);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
 void add_json_flag(Command command, Context& context) {

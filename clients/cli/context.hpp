@@ -27,7 +27,11 @@ class Context {
   std::optional<client::Client> connect();
 
   bool has_color() const;
+  /// Text for people, or JSON. Nothing in it steers a terminal, not even one after a pipe; only
+  /// JSON goes into a pipe or file as it is.
   void print(std::string_view text) const;
+  /// What belongs to others, as a template: a pipe or file gets it byte by byte.
+  void print_content(std::string_view bytes) const;
   void print(const Table& table) const { print(table.render(has_color())); }
   void print(const Details& details) const { print(details.render(has_color())); }
 };

@@ -1,6 +1,5 @@
 #include "clients/cli/measurements/archived_listing.hpp"
 
-#include <unistd.h>
 #include <algorithm>
 #include <set>
 
@@ -137,8 +136,7 @@ int show_archived_report(Context& context, const ArchivedReport& report) {
   if (!archive) return complain(archive.error());
   const auto whose = find_whose(*archive, report);
   if (!whose) return complain(whose.error());
-  StandardOutput output;
-  const bool is_visible = terminal_of(STDOUT_FILENO).is_terminal && !report.is_raw;
+  StandardOutput output(report.is_raw ? Content::Raw : Content::Data);
   const std::string& file = report.archive.file;
   Result<void> done;
   if (context.wants_json) {
@@ -146,8 +144,7 @@ int show_archived_report(Context& context, const ArchivedReport& report) {
   } else {
     done = each_record(*archive, file, [&](const ordered_json& record) -> Result<void> {
       if (!whose->has(record)) return {};
-      const std::string text = text_at(record, "text");
-      return output.write((is_visible ? printable(text) : text) + "\n");
+      return output.write(text_at(record, "text") + "\n");
     });
   }
   if (output.error()) return output.complain();

@@ -51,7 +51,7 @@ int list_report_templates(Context& context, client::Client& client, const Templa
 int show_template(Context& context, client::Client& client, const TemplateChoice& command) {
   const auto answer = client.report_template(command.name, command.version);
   return print_answer(context, client, answer, [&](const ordered_json& shown) {
-    context.print(shown.at("text").get<std::string>());
+    context.print_content(shown.at("text").get<std::string>());
   });
 }
 

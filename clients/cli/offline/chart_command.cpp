@@ -38,7 +38,8 @@ int print_page(const Context& context, const ChartCommand& command, const std::s
   const auto path = std::filesystem::path(command.index).parent_path() / name;
   auto file = MappedFile::open(path.string());
   if (!file) return complain(file.error());
-  context.print(command.is_whole ? file->text() : centurion::first_chart_page(file->text()));
+  context.print_content(command.is_whole ? file->text()
+                                         : centurion::first_chart_page(file->text()));
   return kExitOk;
 }
 

@@ -83,7 +83,7 @@ int diff(Context& context, const DiffCommand& command) {
                                ? json_text(printed)
                                : comparison_text(printed, {command.first.file, command.second.file},
                                                  context.has_color());
-  const int written = write_to("-", text);
+  const int written = write_to("-", text, context.wants_json ? Content::Data : Content::Text);
   return written == kExitOk ? comparison_status(printed) : written;
 }
 

@@ -146,7 +146,8 @@ class Lines {
 };
 
 int print_recording(Context& context, client::Client& client, const RecordingCommand& command) {
-  StandardOutput output;
+  const bool is_raw = context.wants_json || command.output == "-";
+  StandardOutput output(is_raw ? Content::Data : Content::Text);
   TrafficText text({command.is_hex, context.has_color()});
   Lines lines;
   const auto show = [&](std::string_view line) {
@@ -156,7 +157,6 @@ int print_recording(Context& context, client::Client& client, const RecordingCom
     const std::string shown = traffic ? text.add(*traffic) : printable(line) + "\n";
     return shown.empty() || output.write(shown).has_value();
   };
-  const bool is_raw = context.wants_json || command.output == "-";
   auto got = client.recording(command.name, [&](std::string_view bytes) {
     return is_raw ? output.write(bytes).has_value() : lines.feed(bytes, show);
   });

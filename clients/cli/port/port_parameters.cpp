@@ -89,7 +89,7 @@ int parameters_of_line(Context& context, const ParametersCommand& command) {
   const auto parameters = wire::tnc_parameters_of_line(*line);
   if (!parameters) return complain(parameters.error());
   if (!context.wants_json) {
-    context.print(tnc::write_machine_parameters(*parameters));
+    context.print_content(tnc::write_machine_parameters(*parameters));
     return kExitOk;
   }
   nlohmann::ordered_json json{{"baud_rate", line->baud}};

@@ -27,7 +27,7 @@ int write_attestation(Context& context, client::Client& client, const Attestatio
   });
   if (!got) return complain(got.error());
   if (command.output.empty() || command.output == "-") {
-    context.print(text);
+    context.print_content(text);
     return kExitOk;
   }
   return save_content(command.output, [&](const ContentSink& sink) {

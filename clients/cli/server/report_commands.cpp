@@ -1,4 +1,3 @@
-#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -114,17 +113,11 @@ client::Reply<ReportOf> find_report(client::Client& client, const std::string& r
   return client::failed(run.error());
 }
 
-enum class Controls { AsTheyAre, Visible };
-
-/// Control characters that a machine printed must not reach a terminal.
 int print_report(client::Client& client, const ReportOf& report, const std::string& format,
-                 Controls controls) {
-  StandardOutput output;
-  VisibleText visible;
-  auto printed = report.write(client, format, [&](std::string_view bytes) {
-    const bool is_raw = controls == Controls::AsTheyAre;
-    return output.write(is_raw ? bytes : visible.take(bytes)).has_value();
-  });
+                 Content content) {
+  StandardOutput output(content);
+  auto printed = report.write(
+      client, format, [&](std::string_view bytes) { return output.write(bytes).has_value(); });
   if (output.error()) return output.complain();
   return printed ? kExitOk : complain(printed.error());
 }
@@ -138,9 +131,8 @@ struct ShowCommand {
 int show(Context& context, client::Client& client, const ShowCommand& command) {
   auto report = find_report(client, command.run);
   if (!report) return complain(report.error());
-  const bool is_shown = terminal_of(STDOUT_FILENO).is_terminal && !command.is_raw;
-  const auto controls = is_shown ? Controls::Visible : Controls::AsTheyAre;
-  if (context.wants_json) return print_report(client, *report, "json", controls);
+  const auto content = command.is_raw ? Content::Raw : Content::Data;
+  if (context.wants_json) return print_report(client, *report, "json", content);
   if (const auto& run = report->run) {
     context.print(fmt::format("Report of run {}: {} revision {} on {}, {}, {}\n\n",
                               short_id(run->id), run->program, run->revision, run->machine,
@@ -148,7 +140,7 @@ int show(Context& context, client::Client& client, const ShowCommand& command) {
   } else {
     context.print(fmt::format("Printed by machine {} outside any run\n\n", report->machine));
   }
-  return print_report(client, *report, "text", controls);
+  return print_report(client, *report, "text", content);
 }
 
 int export_to_file(client::Client& client, const ReportOf& report, const ExportCommand& command) {
@@ -167,7 +159,7 @@ int export_lines(client::Client& client, const ExportCommand& command) {
   if (!command.output.empty() && command.output != "-") {
     return export_to_file(client, *report, command);
   }
-  return print_report(client, *report, command.format, Controls::AsTheyAre);
+  return print_report(client, *report, command.format, Content::Data);
 }
 
 /// An option that a format does not use is refused by its name.

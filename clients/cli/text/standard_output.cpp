@@ -10,10 +10,21 @@
 
 namespace dripline::cli {
 
+StandardOutput::StandardOutput(Content content) {
+  const bool is_terminal = terminal_of(STDOUT_FILENO).is_terminal;
+  if (content == Content::Text || (content == Content::Data && is_terminal)) visible_.emplace();
+}
+
 Result<void> StandardOutput::write(std::string_view text) {
+  write_bytes(visible_ ? visible_->take(text) : text);
+  if (error_) return fail(*error_);
+  return {};
+}
+
+void StandardOutput::write_bytes(std::string_view bytes) {
   std::fflush(stdout);  // what was printed before comes first
-  while (!text.empty() && !error_) {
-    const auto written = ::write(STDOUT_FILENO, text.data(), text.size());
+  while (!bytes.empty() && !error_) {
+    const auto written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       is_closed_ = errno == EPIPE;
@@ -21,10 +32,8 @@ Result<void> StandardOutput::write(std::string_view text) {
                                            std::generic_category().message(errno))};
       break;
     }
-    text.remove_prefix(static_cast<std::size_t>(written));
+    bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (error_) return fail(*error_);
-  return {};
 }
 
 int StandardOutput::complain() const {
@@ -38,9 +47,9 @@ Result<void> write_file(const std::string& path, std::string_view bytes) {
   return file->commit();
 }
 
-int write_to(const std::string& path, std::string_view text) {
+int write_to(const std::string& path, std::string_view text, Content content) {
   if (path.empty() || path == "-") {
-    StandardOutput output;
+    StandardOutput output(content);
     return output.write(text) ? kExitOk : output.complain();
   }
   const auto written = write_file(path, text);

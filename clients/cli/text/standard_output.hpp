@@ -7,15 +7,24 @@
 #include <vector>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/terminal_text.hpp"
 #include "clients/lib/api_json.hpp"
 #include "clients/lib/reply.hpp"
 
 namespace dripline::cli {
 
+/// What standard output gets.
+enum class Content {
+  Data,  ///< programs, reports, CSV, JSON: unchanged in a pipe or file, visible on a terminal
+  Text,  ///< for people: visible everywhere, for a pipe may end at a terminal
+  Raw,   ///< unchanged, on a terminal too, because the user asked for it
+};
+
 /// Standard output for content of any length: unbuffered, and it notices when there is no reader
 /// any more. After a failed write nothing more is written.
 class StandardOutput {
  public:
+  explicit StandardOutput(Content content = Content::Data);
   /// Errors: Io.
   Result<void> write(std::string_view text);
   const std::optional<Error>& error() const { return error_; }
@@ -25,6 +34,8 @@ class StandardOutput {
   int complain() const;
 
  private:
+  void write_bytes(std::string_view bytes);
+  std::optional<VisibleText> visible_;  ///< unset: everything is written unchanged
   std::optional<Error> error_;
   bool is_closed_ = false;
 };
@@ -33,7 +44,7 @@ class StandardOutput {
 Result<void> write_file(const std::string& path, std::string_view bytes);
 
 /// Writes to a file, or to standard output for "-" and "". Gives the exit status.
-int write_to(const std::string& path, std::string_view text);
+int write_to(const std::string& path, std::string_view text, Content content = Content::Data);
 
 /// The whole file or none of it, piece by piece as `fetch` passes them to its argument; "-" and "":
 /// to standard output. Gives the exit status.

@@ -21,12 +21,6 @@ bool color_is_wanted() {
          (term == nullptr || std::string_view(term) != "dumb");
 }
 
-std::string_view sequence(Style style) {
-  constexpr std::string_view kSequences[] = {"",         "\x1b[1m",  "\x1b[32m",
-                                             "\x1b[31m", "\x1b[36m", "\x1b[2m"};
-  return kSequences[static_cast<std::size_t>(style)];
-}
-
 }  // namespace
 
 Terminal terminal_of(int descriptor) {
@@ -38,11 +32,6 @@ Terminal terminal_of(int descriptor) {
     terminal.width = size.ws_col;
   }
   return terminal;
-}
-
-std::string styled(std::string_view text, Style style, bool has_color) {
-  if (!has_color || style == Style::Plain) return std::string(text);
-  return std::string(sequence(style)) + std::string(text) + "\x1b[0m";
 }
 
 std::size_t columns(std::string_view text) {
@@ -59,15 +48,6 @@ std::string cut(std::string_view text, std::size_t width) {
     if (!is_continuation(text[end]) && ++count == width) break;
   }
   return std::string(text.substr(0, end)) + "\u2026";
-}
-
-std::string printable(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) c = ' ';
-  }
-  return out;
 }
 
 LiveArea::LiveArea(std::function<Terminal()> terminal, Writer writer)

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/cli/text/terminal_text.hpp"
+
 namespace dripline::cli {
 
 /// What the destination of text can show.
@@ -18,17 +20,10 @@ struct Terminal {
 /// The terminal of a file descriptor, now (a window can be resized).
 Terminal terminal_of(int descriptor);
 
-enum class Style { Plain, Heading, Good, Bad, Busy, Faint };
-
-/// `text` with the escape sequences of `style`, or as it is when there is no color.
-std::string styled(std::string_view text, Style style, bool has_color);
-
 /// Columns that UTF-8 text takes, one for each character.
 std::size_t columns(std::string_view text);
 /// The text cut to `width` columns, with an ellipsis when something was cut.
 std::string cut(std::string_view text, std::size_t width);
-/// Control characters as blanks: what comes from a program or machine must not steer the terminal.
-std::string printable(std::string_view text);
 
 /// A few lines at the bottom of a terminal that are drawn over and over. On anything else it draws
 /// nothing. Clears itself when destroyed.

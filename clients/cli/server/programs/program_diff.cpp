@@ -31,8 +31,9 @@ std::string revision_name(const nlohmann::ordered_json& revision) {
 int print_comparison(const Context& context, const nlohmann::ordered_json& result) {
   const ComparedNames names{revision_name(result.at("first")), revision_name(result.at("second"))};
   const int written =
-      write_to("-", context.wants_json ? json_text(result)
-                                       : comparison_text(result, names, context.has_color()));
+      context.wants_json
+          ? write_to("-", json_text(result))
+          : write_to("-", comparison_text(result, names, context.has_color()), Content::Text);
   return written == kExitOk ? comparison_status(result) : written;
 }
 

@@ -24,7 +24,7 @@ TEST(Table, AlignsColumnsAndLeavesNoBlanksAtTheEnd) {
 TEST(Table, ColorsOnlyWhenAsked) {
   Table table({"STATE"});
   table.add({Cell("alarmed", Style::Bad)});
-  EXPECT_EQ(table.render(true), "\x1b[1mSTATE\x1b[0m\n\x1b[31malarmed\x1b[0m\n");
+  EXPECT_EQ(visible(table.render(true)), "\x1b[1mSTATE\x1b[0m\n\x1b[31malarmed\x1b[0m\n");
   EXPECT_EQ(table.render(false), "STATE\nalarmed\n");
 }
 
@@ -53,23 +53,6 @@ TEST(Terminal, CutsAtCharacters) {
   EXPECT_EQ(cut("M\u00fcllers", 4), "M\u00fcl\u2026");
   EXPECT_EQ(cut("abc", 0), "");
   EXPECT_EQ(cut("abc", 1), "\u2026");
-}
-
-TEST(VisibleText, ShowsWhatCouldSteerATerminal) {
-  VisibleText visible;
-  EXPECT_EQ(visible.take("X1\x1b[2J\r\tY\x7f\n"), "X1\\x1b[2J\\x0d\tY\\x7f\n");
-}
-
-TEST(VisibleText, KeepsUtf8AndFindsControlsOfTwoBytesAcrossPieces) {
-  VisibleText visible;
-  std::string text(visible.take("20 \xc2\xb0 \xc3\xa9 \xc2"));
-  text += visible.take(
-      "\x9b"
-      "31m \xc2");
-  text += visible.take("\xb5");
-  EXPECT_EQ(text,
-            "20 \xc2\xb0 \xc3\xa9 \\x9b"
-            "31m \xc2\xb5");
 }
 
 TEST(BytesText, UsesSiUnits) {
