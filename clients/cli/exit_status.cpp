@@ -1,6 +1,6 @@
 #include "clients/cli/exit_status.hpp"
 
-#include <cstdio>
+#include "clients/cli/text/error_output.hpp"
 
 namespace dripline::cli {
 
@@ -22,8 +22,7 @@ int exit_status(const client::Failure& failure) {
 }
 
 int complain(const client::Failure& failure) {
-  std::fflush(stdout);
-  fmt::print(stderr, "dnc: {}\n", failure.what);
+  print_error("dnc: {}\n", failure.what);
   return exit_status(failure);
 }
 

@@ -6,6 +6,7 @@
 #include "clients/cli/command_line.hpp"
 #include "clients/cli/completion.hpp"
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/error_output.hpp"
 
 namespace {
 
@@ -86,10 +87,9 @@ int report_parse_end(const CLI::App& app, const CLI::ParseError& end) {
   const auto unknown = app.remaining(true);
   // CLI11 reports only that a verb is missing when there is one that it does not know.
   if (dynamic_cast<const CLI::RequiredError*>(&end) != nullptr && !unknown.empty()) {
-    std::fprintf(stderr, "dnc: '%s' is not known here\nSee %s --help.\n", unknown.front().c_str(),
-                 typed_verbs(app).c_str());
+    print_error("dnc: '{}' is not known here\nSee {} --help.\n", unknown.front(), typed_verbs(app));
   } else {
-    std::fprintf(stderr, "dnc: %s\nSee %s --help.\n", end.what(), typed_verbs(app).c_str());
+    print_error("dnc: {}\nSee {} --help.\n", end.what(), typed_verbs(app));
   }
   return kExitUsage;
 }
@@ -175,7 +175,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& failure) {
-    std::fprintf(stderr, "dnc: %s\n", failure.what());
+    print_error("dnc: {}\n", failure.what());
     return kExitNo;
   }
 }

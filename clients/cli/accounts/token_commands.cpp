@@ -2,6 +2,7 @@
 
 #include "clients/cli/accounts/account_text.hpp"
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
 namespace dripline::cli {
@@ -30,9 +31,9 @@ int add(Context& context, client::Client& client, const TokenCommand& command) {
   if (!command.groups.empty()) request.groups = command.groups;
   const auto token = client.add_token(request);
   if (const auto status = finished(context, token)) return *status;
-  fmt::print(stderr, "Token {} of {}: role {}, machine groups {}, until {}. It is shown once:\n",
-             token->name, token->user, token->role, groups_text(token->groups),
-             expiry_text(token->expires));
+  print_error("Token {} of {}: role {}, machine groups {}, until {}. It is shown once:\n",
+              token->name, token->user, token->role, groups_text(token->groups),
+              expiry_text(token->expires));
   context.print(token->secret + "\n");
   return kExitOk;
 }

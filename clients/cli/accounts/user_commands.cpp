@@ -2,6 +2,7 @@
 
 #include "clients/cli/accounts/account_text.hpp"
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/password_prompt.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
@@ -12,7 +13,7 @@ int print_user(Context& context, const client::Reply<client::User>& user) {
   if (const auto status = finished(context, user)) return *status;
   context.print(user_details(*user));
   if (const auto shortfall = shortfall_text(*user); !shortfall.empty())
-    fmt::print(stderr, "dnc: {}\n", shortfall);
+    print_error("dnc: {}\n", shortfall);
   return kExitOk;
 }
 

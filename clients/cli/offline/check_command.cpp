@@ -6,6 +6,7 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/offline/check_report.hpp"
 #include "clients/cli/offline/offline_program.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/offline/check_summary.hpp"
@@ -98,8 +99,8 @@ Result<interpreter::OfflineOutcome> run(const OfflineProgram& program, const Che
 
 /// The program went to its end past the block that was to be looked at.
 int never_there(const CheckCommand& command) {
-  fmt::print(stderr, "dnc: {}: block {} is not reached before the end of the program\n",
-             command.file, command.to);
+  print_error("dnc: {}: block {} is not reached before the end of the program\n", command.file,
+              command.to);
   return kExitNo;
 }
 

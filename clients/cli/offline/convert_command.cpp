@@ -6,6 +6,7 @@
 #include "clients/cli/offline/form_conversion.hpp"
 #include "clients/cli/offline/motion_conversion.hpp"
 #include "clients/cli/offline/tape_conversion.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/lib/byte_source.hpp"
@@ -104,7 +105,7 @@ Result<bool> walk(client::FileSource& file, const std::string& label, Take take)
 }
 
 int end_interrupted() {
-  fmt::print(stderr, "dnc: the conversion was ended; nothing was written\n");
+  print_error("dnc: the conversion was ended; nothing was written\n");
   return kExitInterrupted;
 }
 
@@ -129,18 +130,18 @@ int list(const ConvertCommand& command, CharacterCode code, client::FileSource& 
 void say_notices(const ConvertCommand& command, const TapeConversion& conversion) {
   const auto& source = conversion.source();
   if (!source.lost_block.empty()) {
-    fmt::print(stderr,
-               "dnc: {}: no end of block before the first block: '{}' was skipped, as a control "
-               "does; --keep-head keeps it\n",
-               command.input, source.lost_block);
+    print_error(
+        "dnc: {}: no end of block before the first block: '{}' was skipped, as a control "
+        "does; --keep-head keeps it\n",
+        command.input, source.lost_block);
   }
   if (source.wrong > 0) {
-    fmt::print(stderr, "dnc: {}: {} rows became '?', the first: {}\n", command.input, source.wrong,
-               source.first_wrong->what);
+    print_error("dnc: {}: {} rows became '?', the first: {}\n", command.input, source.wrong,
+                source.first_wrong->what);
   }
   if (conversion.dropped_comments() > 0) {
-    fmt::print(stderr, "dnc: {} comments left out, EIA has no parentheses\n",
-               conversion.dropped_comments());
+    print_error("dnc: {} comments left out, EIA has no parentheses\n",
+                conversion.dropped_comments());
   }
 }
 

@@ -6,6 +6,7 @@
 #include "clients/cli/offline/graphics_options.hpp"
 #include "clients/cli/offline/offline_program.hpp"
 #include "clients/cli/offline/turning_graphics.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/offline/offline_run.hpp"
@@ -156,9 +157,9 @@ void report(Context& context, const CuttingSimulation& simulation, const Offline
   context.print(fmt::format("{} cuts, {:.1f} cm3 removed ({:.1f} %)\n", simulation.cuts(),
                             removed / 1000, removed_part(simulation) * 100));
   for (const auto& section : simulation.omitted()) {
-    fmt::print(stderr, "dnc: PGM-SECTION CANNOT BE SHOWN: {}, {} moves: {}\n",
-               program.place_of(source, section.origin.program, section.origin.line), section.moves,
-               reason(section.why));
+    print_error("dnc: PGM-SECTION CANNOT BE SHOWN: {}, {} moves: {}\n",
+                program.place_of(source, section.origin.program, section.origin.line),
+                section.moves, reason(section.why));
   }
 }
 

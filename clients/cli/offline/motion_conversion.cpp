@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/lib/output_file.hpp"
 #include "clients/tools/post/conversion.hpp"
@@ -99,7 +100,7 @@ struct Work {
 
 int refuse_conversion(const Work& work, const post::NotConverted& refusal) {
   if (is_interrupted()) {
-    fmt::print(stderr, "dnc: the conversion was ended; nothing was written\n");
+    print_error("dnc: the conversion was ended; nothing was written\n");
     return kExitInterrupted;
   }
   std::string place = work.command.source.file;
@@ -113,16 +114,16 @@ int refuse_conversion(const Work& work, const post::NotConverted& refusal) {
 
 void print_side(const char* name, const std::string& place, const std::string& action,
                 const std::string& line) {
-  fmt::print(stderr, "  {}, {}: {}\n      {}\n", name, place,
-             action.empty() ? "nothing here" : action, line);
+  print_error("  {}, {}: {}\n      {}\n", name, place, action.empty() ? "nothing here" : action,
+              line);
 }
 
 int complain_of_difference(const Work& work, const MotionResult& result, std::string_view text) {
   const std::string name(work.target.name);
-  fmt::print(stderr,
-             "dnc: {}: what would be written for {} does not do the same at {} places; nothing was "
-             "written\n",
-             work.command.source.file, name, result.place_count);
+  print_error(
+      "dnc: {}: what would be written for {} does not do the same at {} places; nothing was "
+      "written\n",
+      work.command.source.file, name, result.place_count);
   for (std::size_t i = 0; i < std::min(result.places.size(), kMaxListedPlaces); ++i) {
     const auto& place = result.places[i];
     std::string what;
@@ -132,7 +133,7 @@ int complain_of_difference(const Work& work, const MotionResult& result, std::st
       what += (what.empty() ? "" : ", ") + std::string(word_of(difference));
     }
     if (place.distance > 0) what += fmt::format(", {:.6f} mm apart", place.distance);
-    fmt::print(stderr, " {}\n", what);
+    print_error(" {}\n", what);
     const bool is_main = place.first.program == interpreter::kMainProgram;
     print_side(work.command.source.file.c_str(), work.place_of(place.first), place.first_text,
                is_main ? line_at(work.program.text(), place.first.offset) : std::string());
@@ -140,10 +141,10 @@ int complain_of_difference(const Work& work, const MotionResult& result, std::st
                line_at(text, place.second.offset));
   }
   if (!work.command.is_as_set_up) {
-    fmt::print(stderr,
-               "dnc: it was written from a start {} mm beside that of the setup, so that a program "
-               "that depends on its start shows; --as-set-up writes it for that of the setup\n",
-               comparison::kStartShift);
+    print_error(
+        "dnc: it was written from a start {} mm beside that of the setup, so that a program "
+        "that depends on its start shows; --as-set-up writes it for that of the setup\n",
+        comparison::kStartShift);
   }
   return kExitNo;
 }
@@ -207,16 +208,16 @@ std::string summary_text(const Work& work, const WrittenProgram& written,
 void print_notes(const Work& work, const WrittenProgram& written, const MotionResult& result) {
   for (const Change& change : kChanges) {
     const std::uint64_t count = written.adapted.*change.count;
-    if (count > 0) fmt::print(stderr, "dnc: note: {} {}\n", count, change.words);
+    if (count > 0) print_error("dnc: note: {} {}\n", count, change.words);
   }
   if (written.written.comments_left_out > 0) {
-    fmt::print(stderr, "dnc: note: {} comments left out: {} has none\n",
-               written.written.comments_left_out, work.target.name);
+    print_error("dnc: note: {} comments left out: {} has none\n", written.written.comments_left_out,
+                work.target.name);
   }
   for (const Condition& condition : result.conditions) {
-    fmt::print(stderr, "dnc: note: {}: holds for this setup alone: {}{}{}\n",
-               work.place_of(condition.place), reason_of(condition.kind),
-               condition.text.empty() ? "" : ": ", condition.text);
+    print_error("dnc: note: {}: holds for this setup alone: {}{}{}\n",
+                work.place_of(condition.place), reason_of(condition.kind),
+                condition.text.empty() ? "" : ": ", condition.text);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "clients/cli/offline/graphics_options.hpp"
 #include "clients/cli/offline/offline_program.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/graphics/turned_views.hpp"
@@ -236,8 +237,8 @@ void report(Context& context, const Drawing& drawing) {
   if (!context.wants_json && !drawing.part_path.empty())
     context.print(fmt::format("{} pieces of the part path\n", drawing.part_path.size()));
   if (simulation.left_out() > 0) {
-    fmt::print(stderr, "dnc: the last {} moves are not in the picture: at most {}\n",
-               simulation.left_out(), TurningSimulation::kMaxPieces);
+    print_error("dnc: the last {} moves are not in the picture: at most {}\n",
+                simulation.left_out(), TurningSimulation::kMaxPieces);
   }
 }
 

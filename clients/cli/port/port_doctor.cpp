@@ -4,6 +4,7 @@
 
 #include "clients/cli/context.hpp"
 #include "clients/cli/port/line_examination.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 
@@ -64,8 +65,7 @@ Result<wire::LineObservation> examine(const DoctorCommand& command, bool is_for_
   auto channel = serial::open_channel(command.address, wire::LineSettings{}, kOpenLimit);
   if (!channel) return fail(channel.error());
   if (is_for_people) {
-    fmt::print(stderr, "Let the control punch out a program now; listening for {} s.\n",
-               command.listen);
+    print_error("Let the control punch out a program now; listening for {} s.\n", command.listen);
   }
   const auto begun = std::chrono::steady_clock::now();
   LiveArea area = LiveArea::on_stderr();

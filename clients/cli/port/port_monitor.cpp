@@ -6,6 +6,7 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/port/port_text.hpp"
 #include "clients/cli/port/traffic_text.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -48,8 +49,8 @@ class PortMonitor {
  private:
   void greet(const client::Port& port) {
     if (context_.wants_json) return;
-    fmt::print(stderr, "{} of {} at {}, {}.  → to the control, ← from it, Ctrl-C ends.\n",
-               port.name, port.machine, port.address, line_text(port.effective));
+    print_error("{} of {} at {}, {}.  → to the control, ← from it, Ctrl-C ends.\n", port.name,
+                port.machine, port.address, line_text(port.effective));
   }
 
   void take(const client::StreamOpened&) { said_.clear(); }
@@ -113,7 +114,7 @@ class PortMonitor {
     if (said_ == text) return;
     said_ = text;
     area_.clear();
-    fmt::print(stderr, "dnc: {}\n", text);
+    print_error("dnc: {}\n", text);
   }
 
   Context& context_;
@@ -170,7 +171,7 @@ int save_recording(client::Client& client, const RecordingCommand& command) {
     return client.recording(command.name, sink);
   });
   if (status == kExitOk) {
-    fmt::print(stderr, "Wrote the recording of {} to {}\n", command.name, command.output);
+    print_error("Wrote the recording of {} to {}\n", command.name, command.output);
   }
   return status;
 }

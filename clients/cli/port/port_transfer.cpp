@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/lib/api_json.hpp"
@@ -69,7 +70,7 @@ int send(Context& context, const SendCommand& command) {
     }
     if (port->transfer->state != "sending") return say_transfer(context, *port->transfer);
   }
-  fmt::print(stderr, "dnc: the transfer continues; dnc port stop {} ends it\n", command.port);
+  print_error("dnc: the transfer continues; dnc port stop {} ends it\n", command.port);
   return kExitInterrupted;
 }
 
@@ -113,7 +114,7 @@ int receive(Context& context, const ReceiveCommand& command) {
     }
     return kExitOk;
   }
-  fmt::print(stderr, "dnc: the line still asks; dnc port stop {} ends it\n", command.port);
+  print_error("dnc: the line still asks; dnc port stop {} ends it\n", command.port);
   return kExitInterrupted;
 }
 

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -98,8 +99,7 @@ int remove_job(Context& context, client::Client& client, const JobChoice& comman
 
 int start_job(Context& context, client::Client& client, const JobStart& command) {
   const auto started = client.start_job(command.machine, command.job);
-  if (started && !started->notice.empty())
-    fmt::print(stderr, "dnc: {}\n", printable(started->notice));
+  if (started && !started->notice.empty()) print_error("dnc: {}\n", started->notice);
   if (const auto status = finished(context, started)) return *status;
   const client::Run& run = started->run;
   context.print(fmt::format("Run {} of {} revision {} started on {}, job {}.\n", run.id,

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
 namespace dripline::cli {
@@ -35,7 +36,7 @@ bool is_number(const client::JogToMake& step) {
 
 int jog(Context& context, client::Client& client, const JogCommand& given) {
   if (!is_number(given.step)) {
-    fmt::print(stderr, "dnc: distance and feed are numbers\n");
+    print_error("dnc: distance and feed are numbers\n");
     return kExitUsage;
   }
   JogCommand command = given;

@@ -11,6 +11,7 @@
 #include "clients/cli/server/runs/run_follower.hpp"
 #include "clients/cli/server/value_commands.hpp"
 #include "clients/cli/setup/change_log.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -93,7 +94,7 @@ class MachineWatch {
     if (said_ == text) return;
     said_ = text;
     area_.clear();
-    fmt::print(stderr, "dnc: {}\n", text);
+    print_error("dnc: {}\n", text);
   }
 
   Context& context_;
@@ -201,7 +202,7 @@ int key_in(Context& context, client::Client& client, const MdiCommand& command) 
   for (const std::string& block : command.blocks) text += block + "\n";
   auto keyed_in = client.key_in(command.machine, text);
   if (!keyed_in) return complain(keyed_in.error());
-  if (!keyed_in->notice.empty()) fmt::print(stderr, "dnc: {}\n", printable(keyed_in->notice));
+  if (!keyed_in->notice.empty()) print_error("dnc: {}\n", keyed_in->notice);
   const client::Run& run = keyed_in->run;
   if (command.waits || command.timeout) {
     std::optional<std::chrono::seconds> timeout;

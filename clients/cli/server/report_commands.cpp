@@ -7,6 +7,7 @@
 #include "clients/cli/measurements/export_formats.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/runs/run_control.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -148,7 +149,7 @@ int export_to_file(client::Client& client, const ReportOf& report, const ExportC
     return report.write(client, command.format, sink);
   });
   if (status == kExitOk) {
-    fmt::print(stderr, "Wrote the report of {} to {}\n", report.name(), command.output);
+    print_error("Wrote the report of {} to {}\n", report.name(), command.output);
   }
   return status;
 }

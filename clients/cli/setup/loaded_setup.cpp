@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/lib/api_json.hpp"
@@ -35,11 +36,10 @@ void warn_of_runs(client::Client& client, const std::string& machine) {
     const auto runs = client.runs({.machine = machine, .program = {}, .state = state, .page = {}});
     if (!runs) return;
     for (const client::Run& run : *runs) {
-      fmt::print(stderr,
-                 "dnc: run {} of {} was started before and keeps {}: what it makes counts under "
-                 "that\n",
-                 run.id, run.program,
-                 run.setup ? fmt::format("setup {}", *run.setup) : "no known setup");
+      print_error(
+          "dnc: run {} of {} was started before and keeps {}: what it makes counts under "
+          "that\n",
+          run.id, run.program, run.setup ? fmt::format("setup {}", *run.setup) : "no known setup");
     }
   }
 }

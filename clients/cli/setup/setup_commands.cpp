@@ -9,6 +9,7 @@
 #include "clients/cli/setup/setup_forms.hpp"
 #include "clients/cli/setup/setup_options.hpp"
 #include "clients/cli/setup/setup_text.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -79,7 +80,7 @@ int push(Context& context, const SetupCommand& command) {
 int put_out(const std::string& path, std::string_view text, const std::string& what) {
   const int status = write_to(path, text);
   const bool is_file = !path.empty() && path != "-";
-  if (status == kExitOk && is_file) fmt::print(stderr, "Wrote {} to {}\n", what, path);
+  if (status == kExitOk && is_file) print_error("Wrote {} to {}\n", what, path);
   return status;
 }
 
@@ -120,9 +121,9 @@ int export_form(Context& context, const SetupCommand& command) {
   if (!text) return complain(text.error());
   const bool is_ours = !command.wants_parameters && control == "centurion" && map->empty();
   if (is_ours) {
-    fmt::print(stderr,
-               "dnc: numbers from P500 on are Dripline's own and not the control's: do not send "
-               "this to a Centurion. --map FILE gives it the control's\n");
+    print_error(
+        "dnc: numbers from P500 on are Dripline's own and not the control's: do not send "
+        "this to a Centurion. --map FILE gives it the control's\n");
   }
   return put_out(command.file, *text,
                  fmt::format("setup {} of {} {}", setup->revision, setup->machine,

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "clients/cli/text/error_output.hpp"
+
 namespace dripline::cli {
 namespace {
 
@@ -47,11 +49,11 @@ Result<std::string> read_line() {
 
 Result<std::string> ask_password(const std::string& prompt) {
   if (::isatty(STDIN_FILENO) == 0) return read_line();
-  fmt::print(stderr, "{}: ", prompt);
+  print_error("{}: ", prompt);
   std::fflush(stderr);
   const HiddenTyping hidden;
   auto line = read_line();
-  fmt::print(stderr, "\n");
+  print_error("\n");
   return line;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -32,7 +33,7 @@ double seconds_since(SteadyTime begun, const Clock& clock) {
 
 int ended(const client::Failure& failure, const char* what) {
   if (!is_interrupted()) return complain(failure);
-  fmt::print(stderr, "dnc: {} was ended; nothing was changed\n", what);
+  print_error("dnc: {} was ended; nothing was changed\n", what);
   return kExitInterrupted;
 }
 

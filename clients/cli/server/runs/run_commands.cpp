@@ -8,6 +8,7 @@
 #include "clients/cli/server/runs/run_follower.hpp"
 #include "clients/cli/server/runs/run_restart.hpp"
 #include "clients/cli/server/status_window.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -28,7 +29,7 @@ int start(Context& context, client::Client& client, const StartCommand& command)
   const auto started = client.start_run(command.request);
   if (!started) return complain(started.error());
   const client::Run& run = started->run;
-  if (!started->notice.empty()) fmt::print(stderr, "dnc: {}\n", printable(started->notice));
+  if (!started->notice.empty()) print_error("dnc: {}\n", started->notice);
   if (command.follows || command.waits) {
     if (!context.wants_json && command.follows) {
       context.print(fmt::format("Run {} started.\n", short_id(run.id)));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "clients/cli/context.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
 namespace dripline::cli {
@@ -24,8 +25,8 @@ struct RunControlCommand {
 void say_queue_is_held(client::Client& client, const std::string& name) {
   const auto machine = client.machine(name);
   if (!machine || !machine->queue_hold) return;
-  fmt::print(stderr, "dnc: the queue of {} is still held by {}: {}; dnc job release {}\n", name,
-             machine->queue_hold->who, machine->queue_hold->reason, name);
+  print_error("dnc: the queue of {} is still held by {}: {}; dnc job release {}\n", name,
+              machine->queue_hold->who, machine->queue_hold->reason, name);
 }
 
 bool is_stop(const client::CommandRequest& command) {
@@ -52,7 +53,7 @@ std::optional<client::Machine> find_machine_of(client::Client& client, const std
 /// A stop that is not confirmed: the machine may go on.
 int complain_of_stop(const client::Failure& failure) {
   const int status = complain(failure);
-  fmt::print(stderr, "dnc: the machine may not have stopped: stop it at its panel\n");
+  print_error("dnc: the machine may not have stopped: stop it at its panel\n");
   return status;
 }
 
@@ -176,7 +177,7 @@ int give_overrides(Context& context, const RunControlCommand& command) {
   add("rapid_override", command.rapid);
   add("spindle_override", command.spindle);
   if (!commands.empty()) return give(context, command.run, commands);
-  fmt::print(stderr, "dnc: run override changes nothing; expected --feed, --rapid or --spindle\n");
+  print_error("dnc: run override changes nothing; expected --feed, --rapid or --spindle\n");
   return kExitUsage;
 }
 

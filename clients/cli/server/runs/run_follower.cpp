@@ -7,6 +7,7 @@
 #include "clients/cli/server/kept_memory.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/setup/change_log.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
@@ -135,7 +136,7 @@ class RunFollower {
 
   void note(const std::string& text) {
     area_.clear();
-    fmt::print(stderr, "dnc: {}\n", text);
+    print_error("dnc: {}\n", text);
   }
 
   void tell(const client::Record& record) {

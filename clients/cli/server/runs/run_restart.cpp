@@ -9,6 +9,7 @@
 #include "clients/cli/server/runs/restart_text.hpp"
 #include "clients/cli/server/runs/run_control.hpp"
 #include "clients/cli/server/runs/run_follower.hpp"
+#include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -66,9 +67,9 @@ int restart(Context& context, client::Client& client, const RestartCommand& comm
   auto report = wait_for_report(client, *run);
   if (!report) return complain(report.error());
   if (!*report) {
-    fmt::print(stderr, "dnc: run {}: {}\n", short_id(run->id),
-               run->reason.empty() ? "no report of the restart yet; dnc run watch follows it"
-                                   : run->reason);
+    print_error("dnc: run {}: {}\n", short_id(run->id),
+                run->reason.empty() ? "no report of the restart yet; dnc run watch follows it"
+                                    : run->reason);
     return kExitNo;
   }
   if (context.wants_json) {
@@ -77,7 +78,7 @@ int restart(Context& context, client::Client& client, const RestartCommand& comm
   } else {
     const auto details = restart_details(**report);
     if (!details) {
-      fmt::print(stderr, "dnc: {}\n", details.error().what);
+      print_error("dnc: {}\n", details.error().what);
       return kExitNo;
     }
     context.print(*details);

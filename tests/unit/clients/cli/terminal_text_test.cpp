@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "clients/cli/text/error_output.hpp"
+
 namespace dripline::cli {
 namespace {
 
@@ -73,6 +75,12 @@ TEST(VisibleText, KeepsLineEndsOfTwoAcrossPieces) {
   text += visible.take("\nb\r");
   text += visible.take("c");
   EXPECT_EQ(text, "a\r\nb\\x0dc");
+}
+
+TEST(PrintError, MakesALineOfEachText) {
+  testing::internal::CaptureStderr();
+  print_error("dnc: {}, {}\n", std::string("a\nb\u009b"), 3);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "dnc: a b , 3\n");
 }
 
 }  // namespace

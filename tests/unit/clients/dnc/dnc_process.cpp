@@ -2,10 +2,58 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <termios.h>
+#include <unistd.h>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <thread>
+
+#include "protocol/base/invariant.hpp"
 
 namespace dripline::test_support {
+namespace {
+
+/// A terminal whose other end collects what is written to it.
+class PseudoTerminal {
+ public:
+  PseudoTerminal() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    const bool is_ready = ::grantpt(master_) == 0 && ::unlockpt(master_) == 0;
+    invariant(is_ready, "there are pseudo terminals");
+    path_ = ::ptsname(master_);
+    slave_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    termios as_it_is{};
+    ::tcgetattr(slave_, &as_it_is);
+    ::cfmakeraw(&as_it_is);
+    ::tcsetattr(slave_, TCSANOW, &as_it_is);
+    reader_ = std::thread([this] { read_to_end(); });
+  }
+  ~PseudoTerminal() {
+    take_all();
+    ::close(master_);
+  }
+  const std::string& path() const { return path_; }
+  /// When no one else writes any more.
+  const std::string& take_all() {
+    if (!reader_.joinable()) return text_;
+    ::close(slave_);
+    reader_.join();
+    return text_;
+  }
+
+ private:
+  void read_to_end() {
+    char piece[4096];
+    for (ssize_t size = 0; (size = ::read(master_, piece, sizeof piece)) > 0;)
+      text_.append(piece, static_cast<std::size_t>(size));
+  }
+  int master_, slave_ = -1;
+  std::string path_, text_;
+  std::thread reader_;
+};
+
+}  // namespace
 
 std::vector<std::string> Dnc::command(const std::vector<std::string>& arguments) const {
   std::vector<std::string> all{
@@ -17,12 +65,21 @@ std::vector<std::string> Dnc::command(const std::vector<std::string>& arguments)
   return all;
 }
 
-DncResult Dnc::operator()(const std::vector<std::string>& arguments) const {
-  const std::string out = (folder_.path() / "stdout.txt").string();
+Finished Dnc::run_into(const std::string& out, const std::vector<std::string>& arguments) const {
   std::vector<std::string> all{"/bin/sh", "-c", "out=$1; shift; exec \"$@\" >\"$out\"", "sh", out};
   for (auto& word : command(arguments)) all.push_back(std::move(word));
-  const auto finished = run_to_end(all, folder_.path() / "stderr.txt");
+  return run_to_end(all, folder_.path() / "stderr.txt");
+}
+
+DncResult Dnc::operator()(const std::vector<std::string>& arguments) const {
+  const auto finished = run_into((folder_.path() / "stdout.txt").string(), arguments);
   return {finished.status, read("stdout.txt"), finished.output};
+}
+
+DncResult Dnc::on_terminal(const std::vector<std::string>& arguments) const {
+  PseudoTerminal terminal;
+  const auto finished = run_into(terminal.path(), arguments);
+  return {finished.status, terminal.take_all(), finished.output};
 }
 
 ChildProcess Dnc::start(const std::vector<std::string>& arguments) const {

@@ -23,6 +23,8 @@ class Dnc {
 
   std::map<std::string, std::string> environment;
   DncResult operator()(const std::vector<std::string>& arguments) const;
+  /// The same with standard output on a terminal, which passes everything on as it is.
+  DncResult on_terminal(const std::vector<std::string>& arguments) const;
   /// Starts it and returns; standard output and error go to the process's output.
   ChildProcess start(const std::vector<std::string>& arguments) const;
 
@@ -31,6 +33,7 @@ class Dnc {
   std::string read(const std::string& name) const;
 
  private:
+  Finished run_into(const std::string& out, const std::vector<std::string>& arguments) const;
   std::vector<std::string> command(const std::vector<std::string>& arguments) const;
   std::string program_;
   TemporaryFolder folder_;
