@@ -13,20 +13,36 @@ bool is_plain_number(std::string_view text) {
          std::ranges::count(text, '.') <= 1;
 }
 
-/// Apostrophes before it do not matter, so that those of a text itself come back.
-bool looks_like_formula(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of('\''), text.size()));
-  constexpr std::string_view kStarts = "=+-@\t\r\n";
-  return !text.empty() && kStarts.find(text.front()) != std::string_view::npos &&
+/// Apostrophes before it do not matter, so that those of a text itself come back; quotes neither,
+/// for a spreadsheet that is lenient drops them.
+bool looks_like_formula(std::string_view text, std::string_view starts) {
+  text.remove_prefix(std::min(text.find_first_not_of("'\""), text.size()));
+  return !text.empty() && starts.find(text.front()) != std::string_view::npos &&
          !is_plain_number(text);
+}
+
+/// What a spreadsheet may take for a cell: the text, and what follows a separator in it. Calls
+/// `add(part, is_formula)` with each part, its separator at its end.
+template <class Add>
+void each_cell(std::string_view text, const Add& add) {
+  bool is_formula = looks_like_formula(text, "=+-@\t\r\n");
+  for (;;) {
+    const auto separator = text.find_first_of(";\t\r\n");
+    if (separator == std::string_view::npos) return add(text, is_formula);
+    add(text.substr(0, separator + 1), is_formula);
+    text.remove_prefix(separator + 1);
+    is_formula = looks_like_formula(text.substr(0, text.find_first_of(";\t\r\n")), "=+-@");
+  }
 }
 
 }  // namespace
 
 std::string csv_field(std::string_view text) {
-  const bool is_guarded = looks_like_formula(text);
-  std::string plain = is_guarded ? "'" : "";
-  plain += text;
+  std::string plain;
+  each_cell(text, [&](std::string_view part, bool is_formula) {
+    if (is_formula) plain += '\'';
+    plain += part;
+  });
   if (plain.find_first_of(",;\"\t\r\n") == std::string::npos) return plain;
   std::string quoted = "\"";
   for (const char c : plain) {
@@ -37,8 +53,12 @@ std::string csv_field(std::string_view text) {
 }
 
 std::string unguarded(std::string_view cell) {
-  if (cell.starts_with('\'') && looks_like_formula(cell)) cell.remove_prefix(1);
-  return std::string(cell);
+  std::string text;
+  each_cell(cell, [&](std::string_view part, bool is_formula) {
+    if (is_formula && part.starts_with('\'')) part.remove_prefix(1);
+    text += part;
+  });
+  return text;
 }
 
 }  // namespace dripline

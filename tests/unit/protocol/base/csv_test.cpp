@@ -28,9 +28,9 @@ INSTANTIATE_TEST_SUITE_P(
                     CellCase{"formula", "=HYPERLINK(\"http://x\",\"y\")",
                              "\"'=HYPERLINK(\"\"http://x\"\",\"\"y\"\")\""},
                     CellCase{"plus", "+A1", "'+A1"}, CellCase{"minus", "-A1", "'-A1"},
-                    CellCase{"at", "@SUM(A1)", "'@SUM(A1)"}, CellCase{"tab", "\t=1", "\"'\t=1\""},
-                    CellCase{"carriage_return", "\r=1", "\"'\r=1\""},
-                    CellCase{"line_end", "\n=1", "\"'\n=1\""},
+                    CellCase{"at", "@SUM(A1)", "'@SUM(A1)"}, CellCase{"tab", "\t=1", "\"'\t'=1\""},
+                    CellCase{"carriage_return", "\r=1", "\"'\r'=1\""},
+                    CellCase{"line_end", "\n=1", "\"'\n'=1\""},
                     CellCase{"negative_number", "-0.0125", "-0.0125"},
                     CellCase{"signed_number", "+49.987", "+49.987"},
                     CellCase{"two_points", "-1.2.3", "'-1.2.3"}, CellCase{"sign_alone", "-", "'-"},
@@ -38,7 +38,14 @@ INSTANTIATE_TEST_SUITE_P(
                     CellCase{"apostrophe", "'tis", "'tis"},
                     CellCase{"guarded_already", "'=1", "''=1"},
                     CellCase{"quoted", "a \"b\", c", "\"a \"\"b\"\", c\""},
-                    CellCase{"semicolon", "a;b", "\"a;b\""}),
+                    CellCase{"semicolon", "a;b", "\"a;b\""},
+                    CellCase{"formula_after_semicolon", "a;=1;", "\"a;'=1;\""},
+                    CellCase{"formula_after_tab", "a\t@b", "\"a\t'@b\""},
+                    CellCase{"formula_after_line", "a\r\n-b", "\"a\r\n'-b\""},
+                    CellCase{"guarded_after_semicolon", "a;'=1", "\"a;''=1\""},
+                    CellCase{"number_after_semicolon", "-1;-0.5", "\"'-1;-0.5\""},
+                    CellCase{"quote_after_semicolon", "a;\"=1", "\"a;'\"\"=1\""},
+                    CellCase{"comma", "a,-b", "\"a,-b\""}),
     [](const auto& i) { return std::string{i.param.name}; });
 
 }  // namespace

@@ -66,6 +66,7 @@ TEST(TextFiles, FormulasOfMachinesAreTextsAndComeBack) {
   all.resize(1);
   Measurement& one = all.front();
   one.program = "=HYPERLINK(\"http://x\")";
+  one.run = "a;=1;b \"c\"";
   one.serial = "-0042-A";
   one.part = "'=7";
   one.tool = "@T3";
@@ -74,7 +75,8 @@ TEST(TextFiles, FormulasOfMachinesAreTextsAndComeBack) {
   ListSource source(all);
   const std::string csv = written([&](const Sink& sink) { return write_csv(source, sink); });
   EXPECT_NE(csv.find(",\"'=HYPERLINK(\"\"http://x\"\")\",3,"), std::string::npos) << csv;
-  EXPECT_NE(csv.find(",''=7,'-0042-A,'@T3,\"'\t+cmd|' /C calc'!A0\","), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",''=7,'-0042-A,'@T3,\"'\t'+cmd|' /C calc'!A0\","), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",\"a;'=1;b \"\"c\"\"\","), std::string::npos) << csv;
   EXPECT_NE(csv.find(",-40.250,-80.250,"), std::string::npos) << "numbers stay numbers";
   const std::string lines =
       written([&](const Sink& sink) { return write_json_lines(source, sink); });
