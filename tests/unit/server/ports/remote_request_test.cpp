@@ -44,6 +44,7 @@ class RequestByRule : public ServerTest {
                                                         .reply = "O9998",
                                                         .offer = wire::Offer::All});
   }
+  ~RequestByRule() override { *line_ = {}; }  // what it was to start holds the line
   void ask(std::chrono::milliseconds ago, line::RuleAction action = line::RuleAction::Send) {
     handler_->carry_out(action, "O1", clock_.steady_now() - ago);
   }

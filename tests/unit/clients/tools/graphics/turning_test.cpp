@@ -127,7 +127,8 @@ TEST(Turning, TheWayIsKeptWhileGraphicsAreOn) {
 /// Radius and Z of the ends of the pieces of a part path.
 std::vector<std::pair<double, double>> part_path(const std::string& text) {
   std::vector<std::pair<double, double>> ends;
-  for (const PathPiece& piece : turned(text, kBar, 0.8, [] { return false; }).path()) {
+  const auto simulation = turned(text, kBar, 0.8, [] { return false; });
+  for (const PathPiece& piece : simulation.path()) {
     EXPECT_EQ(piece.kind, PathKind::Part);
     ends.emplace_back(piece.to.x, piece.to.z);
   }
