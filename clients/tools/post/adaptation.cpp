@@ -280,6 +280,11 @@ bool Adaptation::can_be_arc(const Arc& arc, std::string& reason) const {
     reason = fmt::format("helix: {} has arcs in a plane", target().name);
     return false;
   }
+  if (is_helix && !target().has_all_helices && arc.plane != interpreter::Plane::XY) {
+    reason = fmt::format("helix in the plane {}: {} has helices in XY", word_of(arc.plane),
+                         target().name);
+    return false;
+  }
   const FittedArc fitted = fit_arc(grid_, at_, arc, options_.tolerance);
   if (fitted.is_possible && fitted.deviation <= options_.tolerance) return true;
   if (fitted.is_possible) {

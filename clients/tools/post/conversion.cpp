@@ -247,6 +247,7 @@ tl::expected<WrittenProgram, NotConverted> write_program(const SourceProgram& so
     return tl::make_unexpected(ran.error());
   if (auto finished = post.finish(); !finished) return refused(finished.error());
   result.written = post.counts();
+  result.tools = post.tools();
   result.adapted = adaptation.counts();
   return result;
 }

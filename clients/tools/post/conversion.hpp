@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -49,6 +50,7 @@ struct WrittenProgram {
   WrittenCounts written;
   AdaptationCounts adapted;
   double tolerance = 0;
+  std::set<int> tools = {};  ///< called, by their numbers
 };
 
 /// Writes the motion of a program as a program of `target`, in one pass and bounded memory. Nothing

@@ -184,8 +184,12 @@ void PostProcessor::on_arc(const interpreter::Arc& event) {
   name_axes(event.to, arc);
   for (const Axis axis : interpreter::kAllAxes) {
     const bool is_in_plane = axis == axes.first || axis == axes.second;
+    const bool changes = arc.at[index_of(axis)] != counts_[index_of(axis)];
     if (is_in_plane) arc.named.set(index_of(axis));
-    if (!is_in_plane && arc.at[index_of(axis)] != counts_[index_of(axis)]) arc.is_helix = true;
+    if (!is_in_plane && changes) arc.is_helix = true;
+    // C has the axes of its plane alone.
+    const bool is_plain = grid.target().form == Form::PlainLanguage;
+    if (!is_in_plane && !changes && is_plain) arc.named.reset(index_of(axis));
   }
   if (!name_feed(event.origin, event.feed, arc)) return;
   arc.plane = event.plane;
@@ -253,6 +257,7 @@ void PostProcessor::write_coolant(const interpreter::Coolant& coolant) {
 void PostProcessor::on_tool(const interpreter::ToolChange& event) {
   if (!begin(event.origin)) return;
   parts_.writer.tool(text_, event);
+  tools_.insert(event.number);
   known_.reset();  // a target may move to its tool change position
   ++written_.actions;
 }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,8 @@ class PostProcessor final : public interpreter::EventSink {
   const std::optional<Error>& error() const { return error_; }
   bool has_ended() const { return has_ended_; }
   WrittenCounts counts() const;
+  /// Called, by their numbers.
+  const std::set<int>& tools() const { return tools_; }
 
   void on_rapid(const interpreter::Rapid& event) override;
   void on_line(const interpreter::Line& event) override;
@@ -90,6 +93,7 @@ class PostProcessor final : public interpreter::EventSink {
   std::vector<PendingState> pending_;
   std::vector<std::string> new_comments_;
   WrittenCounts written_;
+  std::set<int> tools_;
   std::optional<Refusal> refusal_;
   std::optional<Error> error_;
   bool has_ended_ = false;

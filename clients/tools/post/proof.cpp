@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "clients/tools/post/conversion.hpp"
 
@@ -15,6 +17,20 @@ bool is_of_setup(Condition::Kind kind) {
          kind == BlockSkip || kind == Start;
 }
 
+/// The tools that the program runs with. Those that a table lacks are there without length or
+/// radius, which are what the program was written with.
+std::vector<interpreter::ToolRecord> tools_of(const WrittenProgram& written) {
+  const Target& target = written.grid.target();
+  auto tools = tools_at(target, written.target_setup, written.source_setup);
+  if (!target.has_tool_table) return tools;
+  for (const int number : written.tools) {
+    const bool is_known =
+        std::ranges::find(tools, number, &interpreter::ToolRecord::number) != tools.end();
+    if (!is_known && number != 0) tools.emplace_back().number = number;
+  }
+  return tools;
+}
+
 }  // namespace
 
 Result<comparison::MotionResult> prove(const SourceProgram& source, const WrittenProgram& written,
@@ -28,7 +44,7 @@ Result<comparison::MotionResult> prove(const SourceProgram& source, const Writte
         return std::make_unique<Adaptation>(out, written.grid, written.adaptation, start);
       }};
   interpreter::Setup target_setup = written.target_setup;
-  target_setup.tools = tools_at(written.grid.target(), written.target_setup, written.source_setup);
+  target_setup.tools = tools_of(written);
   const comparison::MotionSide second{
       **dialect, target_setup, text,
       [&](EventSink& out, const Position& start) -> std::unique_ptr<EventSink> {

@@ -46,6 +46,25 @@ constexpr std::array kTargets{
            .has_threads = true,
            .has_lead_along_axis = true,
            .has_oriented_spindle = true},
+    // HEIDENHAIN TNC 426/430, iTNC 530: their tools are in a table of the control. M89 and M90 on
+    // are of the control, M1 has no code of an optional stop.
+    Target{.name = "itnc",
+           .dialect = "itnc",
+           .form = Form::PlainLanguage,
+           .axes = "XYZABC",
+           .coordinate = {{{4, 1181.1024}, {4, 30'000}}},
+           .feed = {{{4, 3937}, {3, 99'999.999}}},
+           .speed = {3, 99'999.999},
+           .dwell = {3, 19'999.999},
+           .max_tool = 32'767,
+           .max_m = 88,
+           .max_name = 99'999'999,
+           .max_radius_error = 0.016,
+           .max_axes = 5,
+           .has_all_helices = false,
+           .has_tool_table = true,
+           .has_mist = false,
+           .has_optional_stop = false},
     // Profile linuxcnc of rs274ngc.
     Target{.name = "linuxcnc",
            .dialect = "rs274ngc",
@@ -92,6 +111,7 @@ constexpr std::array kTargets{
            .max_radius_error = 0.016,
            .max_axes = 3,
            .has_all_planes = false,
+           .defines_tools = true,
            .has_mist = false,
            .has_optional_stop = false,
            .has_comments = false},
@@ -139,7 +159,7 @@ unsigned axes_of(const Target& target) {
 const std::vector<interpreter::ToolRecord>& tools_at(const Target& target,
                                                      const interpreter::Setup& target_setup,
                                                      const interpreter::Setup& source_setup) {
-  const bool takes_source = target_setup.tools.empty() && target.form != Form::PlainLanguage;
+  const bool takes_source = target_setup.tools.empty() && !target.defines_tools;
   return takes_source ? source_setup.tools : target_setup.tools;
 }
 

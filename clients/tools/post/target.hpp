@@ -16,7 +16,7 @@ namespace dripline::post {
 /// How the text of a target is made.
 enum class Form : std::uint8_t {
   Words,          ///< blocks of G and M words, with decimal points
-  PlainLanguage,  ///< the dialog of a TNC
+  PlainLanguage,  ///< the dialog of a HEIDENHAIN control
   Tape,           ///< blocks of whole counts
 };
 
@@ -51,7 +51,10 @@ struct Target {
   double max_sweep = 360;      ///< degrees of one arc; 90: an arc stays in a quadrant
   bool has_all_planes = true;  ///< else arcs in XY alone
   bool has_helix = true;
+  bool has_all_helices = true;      ///< else those in XY alone
   bool feeds_along_circle = false;  ///< F of a helix is the speed along its circle
+  bool defines_tools = false;       ///< in its programs: TOOL DEF
+  bool has_tool_table = false;      ///< a tool that is not in it is an alarm
   bool has_surface_speed = false;
   bool has_threads = false;  ///< straight and tapered ones, G32
   bool has_lead_along_axis =

@@ -68,7 +68,7 @@ TEST(FullCircles, StayFullCirclesFromEverySide) {
                           -7.7 * std::sin(angle));
   }
   source += "M2\n";
-  for (const char* target : {"fanuc", "tnc155", "linuxcnc"}) {
+  for (const char* target : {"fanuc", "itnc", "tnc155", "linuxcnc"}) {
     ConversionOptions options;
     options.tolerance = 0.002;
     const auto converted = convert({"rs274ngc", source}, target, options);
@@ -148,7 +148,7 @@ struct Feature {
 class Features : public testing::TestWithParam<Feature> {};
 
 TEST_P(Features, BecomeMotion) {
-  for (const char* target : {"fanuc", "rs274ngc", "linuxcnc", "tnc155"}) {
+  for (const char* target : {"fanuc", "itnc", "rs274ngc", "linuxcnc", "tnc155"}) {
     ConversionOptions options;
     options.tolerance = 0.002;
     const auto converted = convert({GetParam().control, GetParam().text}, target, options);

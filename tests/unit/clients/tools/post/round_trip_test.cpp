@@ -60,7 +60,7 @@ int total(const std::map<std::string, Tally>& tallies, int Tally::*member) {
   return sum;
 }
 
-constexpr std::array kMills{"fanuc", "rs274ngc", "tnc155", "tektronix-1704"};
+constexpr std::array kMills{"fanuc", "itnc", "rs274ngc", "tnc155", "tektronix-1704"};
 constexpr std::array kLathes{"centurion", "fanuc-t"};
 
 /// What most golden programs need: they begin anywhere, and have inches.

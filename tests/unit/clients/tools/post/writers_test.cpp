@@ -59,6 +59,14 @@ INSTANTIATE_TEST_SUITE_P(
                 "13 CC X+45 Y+4,5\r\n14 C X+50 Y+4,5 DR- R0\r\n15 CYCL DEF 9.0 DWELL TIME\r\n"
                 "16 CYCL DEF 9.1 DWELL 1,5\r\n17 L Z+50 R0 FMAX\r\n18 L M9\r\n19 L M5\r\n"
                 "20 STOP\r\n21 L M30\r\n22 END PGM 1234 MM\r\n"},
+        Written{"itnc", kMilled, "fanuc",
+                "0 BEGIN PGM 1234 MM\r\n; COVER\r\n1 TOOL CALL 3 Z\r\n2 TOOL CALL S1200\r\n"
+                "3 L M3\r\n4 L M8\r\n5 L X-10 Y-5.5 Z+50 R0 FMAX\r\n6 L Z+2 R0 FMAX\r\n"
+                "7 L Z-4 R0 F120\r\n8 L X+40 R0 F300\r\n9 CC X+40 Y+4.5\r\n"
+                "10 C X+50 Y+4.5 DR+ R0\r\n; BOSS\r\n11 CC X+45 Y+4.5\r\n"
+                "12 C X+50 Y+4.5 DR- R0\r\n13 CYCL DEF 9.0 DWELL TIME\r\n"
+                "14 CYCL DEF 9.1 DWELL 1.5\r\n15 L Z+50 R0 FMAX\r\n16 L M9\r\n17 L M5\r\n"
+                "18 STOP\r\n19 L M30\r\n20 END PGM 1234 MM\r\n"},
         Written{"fanuc-t", kTurned, "fanuc-t",
                 "%\nO0045\nG21 G40 G97 G54\nT0303\nS800 M03\nM08\nG00 X42. Z2.\n"
                 "G99 G01 X30. F0.2\nZ-20.\nG02 X40. Z-25. I5. K0.\nG98 G01 X42. F100.\n"
@@ -104,6 +112,40 @@ TEST(PlainLanguageWriter, WritesAHelixByItsAngle) {
       << converted.text;
   // The end of a helix is only as exact as its angle: both axes are named again.
   EXPECT_NE(converted.text.find("L X+0 Y+30 R0\r\n"), std::string::npos) << converted.text;
+}
+
+TEST(PlainLanguageWriter, CallsToolsOfTheTableByNumberOrName) {
+  const std::string source = "G21 G90\nT3 M06\nG00 X1. Y1. Z5.\nT4 M06\nG00 X2. Y2. Z5.\nM30\n";
+  ConversionOptions options;
+  options.target_setup = setup_from(
+      "[[tool]]\nnumber = 4\nname = \"MILL 8\"\n[[tool]]\nnumber = 5\nname = \"DRILL\"\n");
+  const auto converted = convert({"fanuc", source}, "itnc", options);
+  EXPECT_TRUE(converted.is_proved) << converted.reason();
+  EXPECT_NE(converted.text.find("TOOL CALL 3 Z\r\n"), std::string::npos) << converted.text;
+  EXPECT_NE(converted.text.find("TOOL CALL \"MILL 8\" Z\r\n"), std::string::npos);
+  EXPECT_EQ(converted.text.find("TOOL DEF"), std::string::npos) << converted.text;
+}
+
+/// A name of two tools is none: the number is.
+TEST(PlainLanguageWriter, CallsNoToolByANameOfTwo) {
+  ConversionOptions options;
+  options.target_setup =
+      setup_from("[[tool]]\nnumber = 4\nname = \"MILL\"\n[[tool]]\nnumber = 5\nname = \"MILL\"\n");
+  const auto converted =
+      convert({"fanuc", "G21 G90\nT4 M06\nG00 X1. Y1. Z5.\nM30\n"}, "itnc", options);
+  EXPECT_TRUE(converted.is_proved) << converted.reason();
+  EXPECT_NE(converted.text.find("TOOL CALL 4 Z\r\n"), std::string::npos) << converted.text;
+}
+
+TEST(PlainLanguageWriter, WritesPlanesAndTenthsOfMicrometers) {
+  const std::string source =
+      "G21 G90 G94\nG0 X0 Y0 Z0\nG18 G2 X10.0002 Z10.0002 I10.0002 K0 F100.25\n"
+      "G19 G3 Y10 Z20.0002 J0 K10\nG17 G2 X20.0002 Y20 I10 J0\nM2\n";
+  const auto converted = convert({"rs274ngc", source}, "itnc");
+  EXPECT_TRUE(converted.is_proved) << converted.reason() << converted.text;
+  EXPECT_NE(converted.text.find("CC Z+0 X+10.0002\r\n"), std::string::npos) << converted.text;
+  EXPECT_NE(converted.text.find("TOOL CALL Z\r\n"), std::string::npos) << converted.text;
+  EXPECT_NE(converted.text.find(" F100.25\r\n"), std::string::npos) << converted.text;
 }
 
 /// F of a helix is the speed along its circle there: 100 along a helix of 62.832 and 50.
