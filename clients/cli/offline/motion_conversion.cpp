@@ -32,7 +32,7 @@ struct Change {
   const char* member;
   const char* words;
 };
-constexpr std::array<Change, 14> kChanges{{
+constexpr std::array<Change, 16> kChanges{{
     {&post::AdaptationCounts::short_moves, "short_moves",
      "moves left out that are shorter than a step of the target"},
     {&post::AdaptationCounts::split_arcs, "split_arcs", "arcs written as several"},
@@ -53,6 +53,10 @@ constexpr std::array<Change, 14> kChanges{{
      "waits for a tool changed by hand not written"},
     {&post::AdaptationCounts::spindle_restarts, "spindle_restarts",
      "starts of the spindle after a tool change, which stops it"},
+    {&post::AdaptationCounts::operator_actions, "operator_actions",
+     "moves of Z, switches of spindle and coolant and stops left to the operator"},
+    {&post::AdaptationCounts::assumed_tools, "assumed_tools",
+     "tools asked for that the program does not call"},
 }};
 
 std::string_view reason_of(Condition::Kind kind) {
@@ -277,7 +281,6 @@ Result<post::ConversionOptions> options_of(const MotionConversion& command,
 std::vector<std::string> motion_targets() {
   std::vector<std::string> names;
   for (const auto& target : post::targets()) names.emplace_back(target.name);
-  names.emplace_back("prototrak-plus");
   return names;
 }
 

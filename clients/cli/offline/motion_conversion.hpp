@@ -24,7 +24,7 @@ struct MotionConversion {
   bool is_as_set_up = false;
 };
 
-/// The names that `--to` takes, the ones that are only refused included.
+/// The names that `--to` takes.
 std::vector<std::string> motion_targets();
 bool is_motion_target(std::string_view name);
 

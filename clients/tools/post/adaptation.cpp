@@ -151,6 +151,11 @@ std::optional<double> Adaptation::rounded(const Origin& origin, std::string_view
                                target().name, range.max));
     return std::nullopt;
   }
+  if (value < range.min) {
+    refuse(origin, fmt::format("{} of {:g} {}: {} takes {:g} at least", name, value, unit,
+                               target().name, range.min));
+    return std::nullopt;
+  }
   if (!(off <= options_.value_tolerance * std::fabs(value)) || (nearest == 0) != (value == 0)) {
     refuse(origin, fmt::format("{} of {:g} {}: {} takes {} decimals, so {:g}, which is off by more "
                                "than {:g} %",
@@ -197,6 +202,7 @@ void Adaptation::on_rapid(const interpreter::Rapid& event) {
   }
   interpreter::Rapid adapted = event;
   adapted.to = of_target(target(), event.to, start_);
+  has_waited_ = has_waited_ && event.to.same_point(at_);
   EventGate::on_rapid(adapted);
   at_ = event.to;
 }
@@ -214,6 +220,7 @@ void Adaptation::move_line(const Line& line) {
   Line adapted = line;
   adapted.feed = *feed;
   adapted.to = of_target(target(), line.to, start_);
+  has_waited_ = has_waited_ && line.to.same_point(at_);
   EventGate::on_line(adapted);
   at_ = line.to;
 }
@@ -321,6 +328,7 @@ void Adaptation::arc_piece(const Arc& arc) {
     Arc adapted = arc;
     adapted.feed = *feed;
     adapted.to = of_target(target(), arc.to, start_);
+    has_waited_ = false;
     EventGate::on_arc(adapted);
     at_ = arc.to;
     return;

@@ -39,6 +39,8 @@ struct AdaptationCounts {
   std::uint64_t prompts = 0;            ///< answered from the setup
   std::uint64_t tool_change_stops = 0;  ///< waits for a tool changed by hand
   std::uint64_t spindle_restarts = 0;   ///< after a tool change, which stops it at the target
+  std::uint64_t operator_actions = 0;   ///< left to the operator, who is waited for
+  std::uint64_t assumed_tools = 0;      ///< asked for by the target, called by no block
 };
 
 /// Makes a program's motion what the target can have: rounds feeds and speeds, splits arcs, leaves
@@ -108,6 +110,7 @@ class Adaptation final : public interpreter::EventGate {
   interpreter::Spindle spindle_;
   bool has_coolant_ = false;
   AdaptationCounts counts_;
+  bool has_waited_ = false;  ///< for the operator, since the last move
   std::optional<Refusal> refusal_;
 };
 
@@ -117,7 +120,8 @@ interpreter::Position of_target(const Target& target, interpreter::Position posi
                                 const interpreter::Position& start);
 
 /// What a program that was written does, without what belongs to the target and not to the program:
-/// the wait for a tool changed by hand, an M function of the end, off where it is off already. The
+/// the wait for a tool changed by hand, an M function of the end, off where it is off already, a
+/// second wait at one place. The
 /// feed of a helix is the target's F, here and where Adaptation gives it out.
 class TargetView final : public interpreter::EventFilter {
  public:
@@ -129,6 +133,7 @@ class TargetView final : public interpreter::EventFilter {
   void on_thread(const interpreter::Thread& event) override;
   void on_spindle(const interpreter::Spindle& event) override;
   void on_coolant(const interpreter::Coolant& event) override;
+  void on_tool(const interpreter::ToolChange& event) override;
   void on_stop(const interpreter::Stop& event) override;
   void on_miscellaneous(const interpreter::Miscellaneous& event) override;
 
@@ -138,6 +143,7 @@ class TargetView final : public interpreter::EventFilter {
   interpreter::Position at_;
   interpreter::SpindleState spindle_ = interpreter::SpindleState::Off;
   bool has_coolant_ = false;
+  bool has_waited_ = false;  ///< as that of Adaptation
 };
 
 }  // namespace dripline::post

@@ -133,12 +133,14 @@ void Adaptation::on_tool(const interpreter::ToolChange& event) {
                               event.number, target().name));
   }
   tool_ = event.number;
-  if (target().max_tool == 0 || event.number < 0 || event.number > target().max_tool) {
-    return refuse(event.origin,
-                  target().max_tool == 0
-                      ? fmt::format("tool {}: {} has no tool numbers", event.number, target().name)
-                      : fmt::format("tool {}: {} has tools up to {}", event.number, target().name,
-                                    target().max_tool));
+  if (target().max_tool == 0 || event.number < target().min_tool ||
+      event.number > target().max_tool) {
+    return refuse(
+        event.origin,
+        target().max_tool == 0
+            ? fmt::format("tool {}: {} has no tool numbers", event.number, target().name)
+            : fmt::format("tool {}: {} has tools {} {}", event.number, target().name,
+                          target().min_tool == 0 ? "up to" : "from 1 to", target().max_tool));
   }
   interpreter::Spindle spindle = spindle_;
   spindle.origin = event.origin;
@@ -149,6 +151,7 @@ void Adaptation::on_tool(const interpreter::ToolChange& event) {
     off.origin = event.origin;
     EventGate::on_spindle(off);
   }
+  has_waited_ = true;  // a target with an operator waits for the tool
   EventGate::on_tool(event);
   if (restarts) EventGate::on_spindle(spindle);
 }
@@ -209,8 +212,12 @@ void Adaptation::on_stop(const interpreter::Stop& event) {
     ++counts_.tool_change_stops;
     return;
   }
-  if (event.kind == StopKind::Operator)
-    return refuse(event.origin, "a wait for the operator at an axis: it is not written");
+  if (event.kind == StopKind::Operator) {
+    if (!target().has_operator_axis)
+      return refuse(event.origin, "a wait for the operator at an axis: it is not written");
+    if (has_waited_) return;
+    has_waited_ = true;
+  }
   if (event.kind == StopKind::Optional && !target().has_optional_stop)
     return refuse(event.origin, fmt::format("optional stop: {} has none", target().name));
   EventGate::on_stop(event);
@@ -228,17 +235,22 @@ void Adaptation::on_override_inhibit(const interpreter::OverrideInhibit& event) 
 
 void TargetView::on_rapid(const interpreter::Rapid& event) {
   interpreter::Rapid seen = event;
-  seen.to = at_ = of_target(target_, event.to, start_);
+  seen.to = of_target(target_, event.to, start_);
+  has_waited_ = has_waited_ && seen.to.same_point(at_);
+  at_ = seen.to;
   EventFilter::on_rapid(seen);
 }
 
 void TargetView::on_line(const interpreter::Line& event) {
   interpreter::Line seen = event;
-  seen.to = at_ = of_target(target_, event.to, start_);
+  seen.to = of_target(target_, event.to, start_);
+  has_waited_ = has_waited_ && seen.to.same_point(at_);
+  at_ = seen.to;
   EventFilter::on_line(seen);
 }
 
 void TargetView::on_arc(const interpreter::Arc& event) {
+  has_waited_ = false;
   interpreter::Arc seen = event;
   seen.to = of_target(target_, event.to, start_);
   if (target_.feeds_along_circle) seen.feed = interpreter::circle_feed_of(event.feed, seen, at_);
@@ -264,8 +276,19 @@ void TargetView::on_coolant(const interpreter::Coolant& event) {
   has_coolant_ = event.flood || event.mist;
 }
 
+void TargetView::on_tool(const interpreter::ToolChange& event) {
+  has_waited_ = true;
+  EventFilter::on_tool(event);
+}
+
 void TargetView::on_stop(const interpreter::Stop& event) {
-  if (event.kind != interpreter::StopKind::ToolChange) EventFilter::on_stop(event);
+  using interpreter::StopKind;
+  if (event.kind == StopKind::ToolChange) return;
+  if (event.kind == StopKind::Operator) {
+    if (has_waited_) return;
+    has_waited_ = true;
+  }
+  EventFilter::on_stop(event);
 }
 
 void TargetView::on_miscellaneous(const interpreter::Miscellaneous& event) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clients/tools/offline/offline_run.hpp"
+#include "clients/tools/post/adapted_source.hpp"
 
 namespace dripline::post {
 namespace {
@@ -172,16 +173,16 @@ Result<std::string> difference_of_machines(const Setup& source, const Setup& tar
 }
 
 tl::expected<void, NotConverted> run_source(const SourceProgram& source, const Setup& setup,
-                                            const Target& target, Adaptation& adaptation,
+                                            const Target& target, AdaptedSource& adapted,
                                             PostProcessor& post, const ConversionOptions& options) {
-  auto run = interpreter::OfflineRun::begin(source.dialect, setup, source.source, adaptation);
+  auto run = interpreter::OfflineRun::begin(source.dialect, setup, source.source, adapted);
   if (!run) return refused(run.error());
-  adaptation.watch(run->interpreter(), tools_at(target, options.target_setup, setup));
+  adapted.adaptation().watch(run->interpreter(), tools_at(target, options.target_setup, setup));
   for (bool is_over = false; !is_over;) {
     if (options.is_to_stop && options.is_to_stop()) return refused(Errc::Timeout, "interrupted");
     const auto stepped = run->step(kStepBlocks);
-    if (adaptation.refusal())
-      return refused(Errc::Unsupported, adaptation.refusal()->what, adaptation.refusal()->origin);
+    if (adapted.refusal())
+      return refused(Errc::Unsupported, adapted.refusal()->what, adapted.refusal()->origin);
     if (post.refusal())
       return refused(Errc::Unsupported, post.refusal()->what, post.refusal()->origin);
     if (post.error()) return refused(*post.error());
@@ -242,13 +243,13 @@ tl::expected<WrittenProgram, NotConverted> write_program(const SourceProgram& so
   const auto writer = make_writer(target, *target_setup);
   PostProcessor post({result.grid, *writer, head, run_setup.start, result.tolerance,
                       CarriedComments(source.dialect.name, source.text), output});
-  Adaptation adaptation(post, result.grid, adaptation_options, run_setup.start);
-  if (auto ran = run_source(source, run_setup, target, adaptation, post, options); !ran)
+  AdaptedSource adapted(post, result.grid, adaptation_options, run_setup.start);
+  if (auto ran = run_source(source, run_setup, target, adapted, post, options); !ran)
     return tl::make_unexpected(ran.error());
   if (auto finished = post.finish(); !finished) return refused(finished.error());
   result.written = post.counts();
   result.tools = post.tools();
-  result.adapted = adaptation.counts();
+  result.adapted = adapted.counts();
   return result;
 }
 

@@ -105,6 +105,7 @@ void PostProcessor::write_pending() {
 
 /// An axis that has moved has a word where its count changes, and where it has had none before.
 void PostProcessor::name_axes(const Position& to, MoveWords& move) {
+  move.from = counts_;
   for (const Axis axis : interpreter::kAllAxes) {
     const std::size_t i = index_of(axis);
     move.at[i] = parts_.grid.counts(axis, to.raw(axis));

@@ -24,7 +24,7 @@ struct FeedWord {
 
 /// The words of a move. Absolute counts of the grid.
 struct MoveWords {
-  std::array<std::int64_t, interpreter::kAxisCount> at{};
+  std::array<std::int64_t, interpreter::kAxisCount> from{}, at{};
   std::bitset<interpreter::kAxisCount> named;  ///< axes with a word
   std::optional<FeedWord> feed;                ///< absent: the one in force
 };
@@ -81,6 +81,7 @@ std::unique_ptr<ProgramWriter> make_word_writer(const Target& target);
 std::unique_ptr<ProgramWriter> make_plain_language_writer(const Target& target,
                                                           const interpreter::Setup& setup);
 std::unique_ptr<ProgramWriter> make_tape_writer(const Target& target);
+std::unique_ptr<ProgramWriter> make_event_writer(const Target& target);
 /// That of the target's form. `setup`: of the machine that the program is for.
 std::unique_ptr<ProgramWriter> make_writer(const Target& target, const interpreter::Setup& setup);
 

@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "clients/tools/post/adapted_source.hpp"
 #include "clients/tools/post/conversion.hpp"
 
 namespace dripline::post {
@@ -41,7 +42,7 @@ Result<comparison::MotionResult> prove(const SourceProgram& source, const Writte
   const comparison::MotionSide first{
       source.dialect, written.source_setup, source.source,
       [&](EventSink& out, const Position& start) -> std::unique_ptr<EventSink> {
-        return std::make_unique<Adaptation>(out, written.grid, written.adaptation, start);
+        return std::make_unique<AdaptedSource>(out, written.grid, written.adaptation, start);
       }};
   interpreter::Setup target_setup = written.target_setup;
   target_setup.tools = tools_of(written);

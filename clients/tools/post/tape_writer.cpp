@@ -103,6 +103,8 @@ std::unique_ptr<ProgramWriter> make_writer(const Target& target, const interpret
       return make_word_writer(target);
     case Form::PlainLanguage:
       return make_plain_language_writer(target, setup);
+    case Form::Events:
+      return make_event_writer(target);
     case Form::Tape:
       break;
   }

@@ -83,6 +83,26 @@ constexpr std::array kTargets{
            .has_oriented_spindle = true,
            .stops_spindle_at_tool_change = true,
            .needs_speed_per_revolution = true},
+    // ProtoTRAK Plus CAD/CAM Interface Manual: number formats, 255 events. Radii of an arc may
+    // differ
+    // by 0.02 mm (decided in the dialect's README).
+    Target{.name = "prototrak-plus",
+           .dialect = "prototrak-plus",
+           .form = Form::Events,
+           .axes = "XY",
+           .has_operator_axis = true,
+           .coordinate = {{{4, 99.9999}, {2, 9999.99}}},
+           .feed = {{{1, 99.9, 0.1}, {0, 2535, 5}}},
+           .max_tool = 99,
+           .min_tool = 1,
+           .max_m = 0,
+           .max_name = 99'999'999,
+           .max_blocks = 255,
+           .max_radius_error = 0.02,
+           .has_all_planes = false,
+           .has_helix = false,
+           .has_mist = false,
+           .has_optional_stop = false},
     // NIST IR 6556: radii may differ by 0.002 mm or 0.0002 inch.
     Target{.name = "rs274ngc",
            .dialect = "rs274ngc",
@@ -166,12 +186,6 @@ const std::vector<interpreter::ToolRecord>& tools_at(const Target& target,
 Result<const Target*> find_target(std::string_view name) {
   const auto found = std::ranges::find(kTargets, name, &Target::name);
   if (found != kTargets.end()) return &*found;
-  if (name == "prototrak-plus") {
-    return fail(Errc::Unsupported,
-                "prototrak-plus takes events with a tool radius and an operator at Z, which motion "
-                "does not have; programs can be written for {}",
-                target_names());
-  }
   return fail(Errc::NotFound, "unknown control {}; programs can be written for {}", name,
               target_names());
 }

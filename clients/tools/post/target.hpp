@@ -18,12 +18,15 @@ enum class Form : std::uint8_t {
   Words,          ///< blocks of G and M words, with decimal points
   PlainLanguage,  ///< the dialog of a HEIDENHAIN control
   Tape,           ///< blocks of whole counts
+  Events,         ///< those of a ProtoTRAK
 };
 
-/// Decimals of a number and the largest one that the control takes, in a program's units.
+/// Decimals of a number and the largest and smallest one that the control takes, in a program's
+/// units.
 struct NumberRange {
   int decimals = 3;
   double max = 0;
+  double min = 0;
 };
 
 /// By Units: inch, millimeter.
@@ -36,13 +39,15 @@ struct Target {
   std::string_view dialect;  ///< the registry's
   Form form = Form::Words;
   std::string_view axes = "XYZ";
-  bool is_lathe = false;  ///< only programs of lathes; X is a diameter
+  bool is_lathe = false;           ///< only programs of lathes; X is a diameter
+  bool has_operator_axis = false;  ///< Z, spindle and coolant are the operator's (OperatorStage)
   ByUnits coordinate{};
-  ByUnits feed{};                                  ///< per minute
-  ByUnits feed_per_revolution{};                   ///< max 0: it has none
-  NumberRange speed{0, 20'000};                    ///< revolutions per minute
-  NumberRange dwell{3, 9999};                      ///< seconds
-  int max_tool = 99;                               ///< 0: no tool numbers
+  ByUnits feed{};                 ///< per minute
+  ByUnits feed_per_revolution{};  ///< max 0: it has none
+  NumberRange speed{0, 20'000};   ///< revolutions per minute
+  NumberRange dwell{3, 9999};     ///< seconds
+  int max_tool = 99;              ///< 0: no tool numbers
+  int min_tool = 0;
   int min_m = 10, max_m = 99;                      ///< M functions of the machine; max 0: none
   std::int64_t max_name = 9999;                    ///< of a program's number
   std::uint64_t max_blocks = 0;                    ///< 0: no limit
@@ -72,7 +77,7 @@ struct Target {
 std::span<const Target> targets();
 /// "centurion, fanuc, ...": their names.
 std::string target_names();
-/// Errors: NotFound, naming them; Unsupported, for a control that nothing can be written for.
+/// Errors: NotFound, naming them.
 Result<const Target*> find_target(std::string_view name);
 /// Its axes as bits; bit 0 is X.
 unsigned axes_of(const Target& target);

@@ -92,15 +92,26 @@ TEST_F(DncConvertMotion, TellsWhatTheResultDependsOn) {
       << done.err;
 }
 
+TEST_F(DncConvertMotion, LeavesZToTheOperatorOfATwoAxisMill) {
+  dnc.write("flat.nc", "G21 G90\nS900 M03\nG00 X0 Y0\nZ2.\nG01 Z-4. F100.\nX10.\nG00 Z5.\nM30\n");
+  const auto done =
+      dnc({"convert", "flat.nc", "-o", "flat.ptp", "--control", "fanuc", "--to", "prototrak-plus"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_NE(done.err.find("left to the operator"), std::string::npos) << done.err;
+  EXPECT_NE(dnc.read("flat.ptp").find("(Z TO -4. FEED 100)\r\n"), std::string::npos);
+  const auto ramp = dnc({"convert", "part.h", "-o", "x", "--to", "prototrak-plus"});
+  EXPECT_EQ(ramp.status, 1);
+  EXPECT_NE(ramp.err.find("part.h: line 4: rapid move of Z together with X or Y"),
+            std::string::npos)
+      << ramp.err;
+}
+
 TEST_F(DncConvertMotion, UsageErrors) {
   EXPECT_EQ(dnc({"convert", "part.h", "--to", "fanuc"}).status, 2);
   EXPECT_EQ(dnc({"convert", "part.h", "-o", "x", "--to", "fanuc", "--list"}).status, 2);
   EXPECT_EQ(dnc({"convert", "part.h", "-o", "x", "--to", "iso", "--name", "4"}).status, 2);
   EXPECT_EQ(dnc({"convert", "part.h", "-o", "x", "--to", "fanuc", "--to-setup", "none"}).status, 2);
   EXPECT_EQ(dnc({"convert", "none.h", "-o", "x", "--to", "fanuc"}).status, 2);
-  const auto events = dnc({"convert", "part.h", "-o", "x", "--to", "prototrak-plus"});
-  EXPECT_EQ(events.status, 1);
-  EXPECT_NE(events.err.find("programs can be written for centurion"), std::string::npos);
 }
 
 }  // namespace

@@ -21,6 +21,11 @@ bool lists() {
   return list != nullptr && std::string_view(list) == "1";
 }
 
+/// No tolerance below it is met.
+double step_of(const Target& target) {
+  return Grid(target, interpreter::Units::Millimeter).center_step();
+}
+
 void convert_all(std::string_view control, bool is_lathe, const ConversionOptions& options,
                  std::map<std::string, Tally>& tallies) {
   const auto dialect = interpreter::find_dialect(control);
@@ -31,7 +36,9 @@ void convert_all(std::string_view control, bool is_lathe, const ConversionOption
                             loader_of(golden)};
     for (const Target& target : targets()) {
       if (target.is_lathe != is_lathe) continue;
-      const auto converted = convert(original, target.name, options);
+      ConversionOptions own = options;
+      if (own.tolerance) own.tolerance = std::max(*own.tolerance, step_of(target));
+      const auto converted = convert(original, target.name, own);
       auto& tally = tallies[std::string(control) + " to " + std::string(target.name)];
       const std::string reason = converted.reason();
       if (converted.is_proved) {
@@ -60,7 +67,8 @@ int total(const std::map<std::string, Tally>& tallies, int Tally::*member) {
   return sum;
 }
 
-constexpr std::array kMills{"fanuc", "itnc", "rs274ngc", "tnc155", "tektronix-1704"};
+constexpr std::array kMills{"fanuc",    "itnc",   "prototrak-plus",
+                            "rs274ngc", "tnc155", "tektronix-1704"};
 constexpr std::array kLathes{"centurion", "fanuc-t"};
 
 /// What most golden programs need: they begin anywhere, and have inches.
