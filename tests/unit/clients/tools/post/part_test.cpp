@@ -71,6 +71,22 @@ TEST(Part, CoverInFiveDialects) {
   }
 }
 
+/// The cover moves Z with X and Y in its first block.
+TEST(Part, CoverIsNoneOfTwoAxes) {
+  const Part cover = part("tnc155", "part-cover");
+  const auto converted = convert({"tnc155", cover.text, cover.setup}, "prototrak-plus");
+  EXPECT_EQ(converted.reason(),
+            "line 3: rapid move of Z together with X or Y: Z of prototrak-plus is the operator's");
+}
+
+TEST(Part, PlateInThreeDialects) {
+  const Part fanuc = part("fanuc", "part-plate"), itnc = part("itnc", "part-plate");
+  const Part events = part("prototrak-plus", "part-plate");
+  expect_written(fanuc, itnc);
+  expect_written(fanuc, events);
+  expect_written(itnc, events);
+}
+
 TEST(Part, PinInTwoDialects) {
   const Part centurion = part("centurion", "part-pin"), fanuc = part("fanuc-t", "part-pin");
   expect_written(centurion, fanuc);
