@@ -64,6 +64,7 @@ void Adaptation::refuse(const Origin& origin, std::string what) {
 /// It ends on the step where the target is already. An axis that is named for the first time is a
 /// move from any other place.
 bool Adaptation::is_short(const Position& to) const {
+  if (options_.is_off_grid) return false;
   return std::ranges::all_of(interpreter::kAllAxes, [&](Axis axis) {
     const bool is_new = to.has(axis) && !at_.has(axis);
     if (!to.has(axis)) return true;
@@ -292,6 +293,7 @@ bool Adaptation::can_be_arc(const Arc& arc, std::string& reason) const {
                          target().name);
     return false;
   }
+  if (options_.is_off_grid) return true;
   const FittedArc fitted = fit_arc(grid_, at_, arc, options_.tolerance);
   if (fitted.is_possible && fitted.deviation <= options_.tolerance) return true;
   if (fitted.is_possible) {

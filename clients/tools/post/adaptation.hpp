@@ -21,8 +21,10 @@ struct AdaptationOptions {
   double tolerance = 0.001;  ///< mm between an arc and the one that is written
   /// mm: arcs that the target does not have become lines within it; absent: they are refused.
   std::optional<double> chord = {};
-  double value_tolerance = 0.005;   ///< of feeds, speeds and dwells, as a part of them
-  bool passes_messages = false;     ///< to the writer, which makes comments of them
+  double value_tolerance = 0.005;  ///< of feeds, speeds and dwells, as a part of them
+  bool passes_messages = false;    ///< to the writer, which makes comments of them
+  /// The path is that of a compensated contour, which no word of the target has to name.
+  bool is_off_grid = false;
   std::string rotary_refusal = {};  ///< why a move of a rotary axis is refused; empty: it is not
 };
 

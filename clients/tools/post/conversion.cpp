@@ -7,6 +7,7 @@
 
 #include "clients/tools/offline/offline_run.hpp"
 #include "clients/tools/post/adapted_source.hpp"
+#include "clients/tools/post/compensation_reader.hpp"
 
 namespace dripline::post {
 namespace {
@@ -217,7 +218,7 @@ tl::expected<WrittenProgram, NotConverted> write_program(const SourceProgram& so
   const Units source_units = header->header ? header->header->units : source.dialect.units;
   const auto units = units_of_target(target, options, source_units);
   if (!units) return refused(units.error());
-  const ProgramHead head{options.name.value_or(number_of(header->name, target.max_name)), *units};
+  ProgramHead head{options.name.value_or(number_of(header->name, target.max_name)), *units};
   if (options.name && (*options.name < 1 || *options.name > target.max_name)) {
     return refused(Errc::LimitExceeded, fmt::format("program number {}: {} takes 1 to {}",
                                                     *options.name, target.name, target.max_name));
@@ -238,13 +239,31 @@ tl::expected<WrittenProgram, NotConverted> write_program(const SourceProgram& so
       options.is_as_set_up
           ? source_setup
           : comparison::started_beside(source_setup, comparison::kStartShift, axes_of(target));
+  std::optional<CompensationSource> programmed;
+  if (options.keeps_compensation) {
+    auto prepared = as_programmed(source, run_setup, target, *target_setup);
+    if (!prepared) return refused(prepared.error());
+    programmed.emplace(*std::move(prepared));
+    auto kept = read_compensation(source, run_setup, *programmed, target, options);
+    if (!kept) return tl::make_unexpected(std::move(kept.error()));
+    result.compensation = *std::move(kept);
+    result.head.radii = result.compensation.radii;
+  }
   auto adaptation_options = result.adaptation;
   adaptation_options.passes_messages = true;
   const auto writer = make_writer(target, *target_setup);
-  PostProcessor post({result.grid, *writer, head, run_setup.start, result.tolerance,
-                      CarriedComments(source.dialect.name, source.text), output});
+  const bool has_program = programmed && programmed->program;
+  const SourceProgram ran_source{
+      source.dialect, source.setup,
+      has_program ? static_cast<interpreter::ProgramSource&>(*programmed->program) : source.source,
+      has_program ? programmed->program->text() : source.text};
+  PostProcessor post({result.grid, *writer, result.head, run_setup.start, result.tolerance,
+                      CarriedComments(source.dialect.name, ran_source.text), output,
+                      &result.compensation});
   AdaptedSource adapted(post, result.grid, adaptation_options, run_setup.start);
-  if (auto ran = run_source(source, run_setup, target, adapted, post, options); !ran)
+  if (auto ran = run_source(ran_source, programmed ? programmed->setup : run_setup, target, adapted,
+                            post, options);
+      !ran)
     return tl::make_unexpected(ran.error());
   if (auto finished = post.finish(); !finished) return refused(finished.error());
   result.written = post.counts();

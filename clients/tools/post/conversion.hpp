@@ -30,6 +30,8 @@ struct ConversionOptions {
   std::optional<double> chord = {};      ///< see AdaptationOptions
   /// Also writes what holds with this setup alone: its start, variables, answers and switches.
   bool is_as_set_up = false;
+  /// Writes contours as they are programmed, with the target's compensation.
+  bool keeps_compensation = false;
   std::function<bool()> is_to_stop = {};  ///< asked now and then; true ends the work with Timeout
 };
 
@@ -50,7 +52,8 @@ struct WrittenProgram {
   WrittenCounts written;
   AdaptationCounts adapted;
   double tolerance = 0;
-  std::set<int> tools = {};  ///< called, by their numbers
+  std::set<int> tools = {};            ///< called, by their numbers
+  KeptCompensation compensation = {};  ///< none where it is resolved
 };
 
 /// Writes the motion of a program as a program of `target`, in one pass and bounded memory. Nothing
@@ -61,9 +64,10 @@ tl::expected<WrittenProgram, NotConverted> write_program(const SourceProgram& so
                                                          const PostProcessor::Output& output);
 
 /// Interprets what was written as its control does, and compares it action by action with the
-/// source. `is_same` of the result is the proof; what it depends on is in `conditions`, and a
-/// condition other than those of `is_as_set_up` is none. Errors: those of MotionComparison;
-/// Timeout.
+/// source. Where compensation is kept, once more with other radii of the tools on both sides; the
+/// result is that of the first comparison that is no proof. `is_same` of the result is the proof;
+/// what it depends on is in `conditions`, and a condition other than those of `is_as_set_up` is
+/// none. Errors: those of MotionComparison; Timeout.
 Result<comparison::MotionResult> prove(const SourceProgram& source, const WrittenProgram& written,
                                        interpreter::ProgramSource& text,
                                        const ConversionOptions& options);

@@ -58,6 +58,7 @@ class PlainLanguageWriter final : public ProgramWriter {
 
   void head(std::string& out, const ProgramHead& head) override {
     units_ = head.units;
+    radii_ = head.radii;
     name_ =
         fmt::format("{} {}", head.number, head.units == interpreter::Units::Inch ? "INCH" : "MM");
     block(out, "BEGIN PGM " + name_);
@@ -66,10 +67,10 @@ class PlainLanguageWriter final : public ProgramWriter {
   }
 
   void rapid(std::string& out, const MoveWords& move) override {
-    block(out, "L" + coordinates(move) + " R0 FMAX");
+    block(out, "L" + coordinates(move) + side(move) + " FMAX");
   }
   void line(std::string& out, const MoveWords& move) override {
-    block(out, "L" + coordinates(move) + " R0" + feed(move));
+    block(out, "L" + coordinates(move) + side(move) + feed(move));
   }
 
   bool arc(std::string& out, const ArcWords& arc) override {
@@ -90,7 +91,7 @@ class PlainLanguageWriter final : public ProgramWriter {
     const bool is_ccw = arc.turn == interpreter::Turn::Counterclockwise;
     const std::string_view direction = is_ccw ? " DR+" : " DR-";
     if (!arc.is_helix) {
-      block(out, "C" + coordinates(arc) + std::string(direction) + " R0" + feed(arc));
+      block(out, "C" + coordinates(arc) + std::string(direction) + side(arc) + feed(arc));
       return true;
     }
     MoveWords depth = arc;
@@ -99,7 +100,7 @@ class PlainLanguageWriter final : public ProgramWriter {
     std::string words = "CP IPA";
     append_number(words, counts_of(is_ccw ? arc.sweep : -arc.sweep, row_.angle_decimals),
                   row_.angle_decimals, signed_);
-    block(out, words + coordinates(depth) + std::string(direction) + " R0" + feed(arc));
+    block(out, words + coordinates(depth) + std::string(direction) + side(arc) + feed(arc));
     return false;
   }
 
@@ -144,7 +145,7 @@ class PlainLanguageWriter final : public ProgramWriter {
   void tool(std::string& out, const interpreter::ToolChange& tool) override {
     const bool is_new = target_.defines_tools && tool.number != 0;
     if (is_new && known_tools_.insert(tool.number).second)
-      block(out, fmt::format("TOOL DEF {} L+0 R+0", tool.number));
+      block(out, fmt::format("TOOL DEF {} L+0 R{}", tool.number, radius_text(tool.number)));
     const auto name = names_.find(tool.number);
     block(out, name == names_.end() ? fmt::format("TOOL CALL {} Z", tool.number)
                                     : fmt::format("TOOL CALL \"{}\" Z", name->second));
@@ -179,6 +180,10 @@ class PlainLanguageWriter final : public ProgramWriter {
     out += fmt::format("{} {}\r\n", blocks(), words);
     count_block();
   }
+  static std::string side(const MoveWords& move) {
+    constexpr std::array kSides{" R0", " RL", " RR"};
+    return kSides[static_cast<std::size_t>(move.compensation.side)];
+  }
   std::string coordinates(const MoveWords& move) const {
     std::string words;
     for (const Axis axis : interpreter::kAllAxes) {
@@ -189,6 +194,13 @@ class PlainLanguageWriter final : public ProgramWriter {
       append_number(words, move.at[i], decimals(), signed_);
     }
     return words;
+  }
+  std::string radius_text(int tool) const {
+    const auto radius = radii_.find(tool);
+    const double mm = radius == radii_.end() ? 0 : radius->second;
+    std::string text;
+    append_number(text, counts_of(mm / mm_per_unit(units_), decimals()), decimals(), signed_);
+    return text;
   }
   std::string feed(const MoveWords& move) const {
     if (!move.feed) return {};
@@ -205,6 +217,7 @@ class PlainLanguageWriter final : public ProgramWriter {
   NumberLook signed_, plain_;
   interpreter::Units units_ = interpreter::Units::Millimeter;
   std::string name_;
+  std::map<int, double> radii_;       ///< mm
   std::set<int> known_tools_;         ///< defined, in the setup or above
   std::map<int, std::string> names_;  ///< of the setup's tools
   std::array<std::int64_t, 2> center_{};

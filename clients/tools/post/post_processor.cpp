@@ -104,7 +104,8 @@ void PostProcessor::write_pending() {
 }
 
 /// An axis that has moved has a word where its count changes, and where it has had none before.
-void PostProcessor::name_axes(const Position& to, MoveWords& move) {
+void PostProcessor::name_axes(const Origin& origin, const Position& to, MoveWords& move) {
+  if (parts_.compensation != nullptr) move.compensation = parts_.compensation->at(origin.block);
   move.from = counts_;
   for (const Axis axis : interpreter::kAllAxes) {
     const std::size_t i = index_of(axis);
@@ -159,7 +160,7 @@ void PostProcessor::arrive(const Position& to, const MoveWords& move) {
 void PostProcessor::on_rapid(const interpreter::Rapid& event) {
   if (!begin(event.origin)) return;
   MoveWords move;
-  name_axes(event.to, move);
+  name_axes(event.origin, event.to, move);
   if (!check_axes(event.origin, move)) return;
   if (move.named.any()) parts_.writer.rapid(text_, move);
   arrive(event.to, move);
@@ -168,7 +169,7 @@ void PostProcessor::on_rapid(const interpreter::Rapid& event) {
 void PostProcessor::on_line(const interpreter::Line& event) {
   if (!begin(event.origin)) return;
   MoveWords move;
-  name_axes(event.to, move);
+  name_axes(event.origin, event.to, move);
   if (!check_axes(event.origin, move)) return;
   if (!name_feed(event.origin, event.feed, move)) return;
   if (move.named.any()) parts_.writer.line(text_, move);
@@ -182,7 +183,7 @@ void PostProcessor::on_arc(const interpreter::Arc& event) {
   const FittedArc fitted = fit_arc(grid, at_, event, parts_.tolerance);
   ArcWords arc;
   arc.is_helix = false;
-  name_axes(event.to, arc);
+  name_axes(event.origin, event.to, arc);
   for (const Axis axis : interpreter::kAllAxes) {
     const bool is_in_plane = axis == axes.first || axis == axes.second;
     const bool changes = arc.at[index_of(axis)] != counts_[index_of(axis)];
@@ -211,7 +212,7 @@ void PostProcessor::on_thread(const interpreter::Thread& event) {
   if (!begin(event.origin)) return;
   const Grid& grid = parts_.grid;
   ThreadWords thread;
-  name_axes(event.to, thread);
+  name_axes(event.origin, event.to, thread);
   const Length lead = lead_word(grid, at_, event.to, event.lead);
   thread.lead = counts_of(lead.mm() / mm_per_unit(grid.units()),
                           range_of(grid.target().feed_per_revolution, grid.units()).decimals);

@@ -33,6 +33,7 @@ class PostProcessor final : public interpreter::EventSink {
     double tolerance = 0.001;     ///< as in AdaptationOptions
     CarriedComments comments;
     Output output;
+    const KeptCompensation* compensation = nullptr;  ///< absent: none is written
   };
   explicit PostProcessor(Parts parts);
 
@@ -76,7 +77,8 @@ class PostProcessor final : public interpreter::EventSink {
   void flush_if_large();
   void check(const interpreter::Origin& origin, const Result<void>& written);
   void check_size(const interpreter::Origin& origin);
-  void name_axes(const interpreter::Position& to, MoveWords& move);
+  void name_axes(const interpreter::Origin& origin, const interpreter::Position& to,
+                 MoveWords& move);
   bool check_axes(const interpreter::Origin& origin, const MoveWords& move);
   bool name_feed(const interpreter::Origin& origin, Feed feed, MoveWords& move);
   bool has_speed() const;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <bitset>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "clients/tools/post/grid.hpp"
+#include "clients/tools/post/kept_compensation.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 
 namespace dripline::post {
@@ -13,6 +15,7 @@ namespace dripline::post {
 struct ProgramHead {
   std::int64_t number = 1;
   interpreter::Units units = interpreter::Units::Millimeter;
+  std::map<int, double> radii = {};  ///< mm, of tools whose compensation is kept
 };
 
 /// A feed to be written, in counts of the target's decimals.
@@ -27,6 +30,7 @@ struct MoveWords {
   std::array<std::int64_t, interpreter::kAxisCount> from{}, at{};
   std::bitset<interpreter::kAxisCount> named;  ///< axes with a word
   std::optional<FeedWord> feed;                ///< absent: the one in force
+  KeptCompensation::State compensation = {};   ///< the coordinates are those of the contour
 };
 
 struct ArcWords : MoveWords {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,10 @@
 #include "protocol/base/result.hpp"
 
 namespace dripline::post {
+
+/// Where a control finds the radius of its cutter compensation: in the offset of the word D, or in
+/// the tool that was called.
+enum class RadiusOf : std::uint8_t { Offset, Tool };
 
 /// How the text of a target is made.
 enum class Form : std::uint8_t {
@@ -56,10 +61,11 @@ struct Target {
   double max_sweep = 360;      ///< degrees of one arc; 90: an arc stays in a quadrant
   bool has_all_planes = true;  ///< else arcs in XY alone
   bool has_helix = true;
-  bool has_all_helices = true;      ///< else those in XY alone
-  bool feeds_along_circle = false;  ///< F of a helix is the speed along its circle
-  bool defines_tools = false;       ///< in its programs: TOOL DEF
-  bool has_tool_table = false;      ///< a tool that is not in it is an alarm
+  bool has_all_helices = true;          ///< else those in XY alone
+  bool feeds_along_circle = false;      ///< F of a helix is the speed along its circle
+  std::optional<RadiusOf> radius = {};  ///< of cutter compensation; absent: it is not written
+  bool defines_tools = false;           ///< in its programs: TOOL DEF
+  bool has_tool_table = false;          ///< a tool that is not in it is an alarm
   bool has_surface_speed = false;
   bool has_threads = false;  ///< straight and tapered ones, G32
   bool has_lead_along_axis =

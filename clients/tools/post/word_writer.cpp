@@ -138,6 +138,7 @@ class WordWriter final : public ProgramWriter {
     }
     append_feed_mode(words, arc.feed);
     append_motion(words, arc.turn == interpreter::Turn::Clockwise ? 2 : 3);
+    append_compensation(words, arc.compensation);
     append_coordinates(words, arc);
     const auto axes = interpreter::axes_of(arc.plane);
     std::array<std::pair<Axis, std::int64_t>, 2> centers{
@@ -267,6 +268,15 @@ class WordWriter final : public ProgramWriter {
     motion_ = motion;
     append(words, code('G', motion));
   }
+  /// The side and its radius, in the first move that has them.
+  void append_compensation(std::string& words, const KeptCompensation::State& state) {
+    const bool is_off = state.side == interpreter::CompensationSide::Off;
+    if (side_ == state.side && (is_off || radius_number_ == state.number)) return;
+    side_ = state.side;
+    radius_number_ = state.number;
+    append(words, code('G', 40 + static_cast<int>(state.side)));
+    if (!is_off) append(words, fmt::format("D{}", state.number));
+  }
   void append_feed_mode(std::string& words, const std::optional<FeedWord>& feed) {
     if (!feed || is_per_revolution_ == feed->is_per_revolution) return;
     is_per_revolution_ = feed->is_per_revolution;
@@ -295,6 +305,7 @@ class WordWriter final : public ProgramWriter {
     std::string words;
     append_feed_mode(words, move.feed);
     append_motion(words, motion);
+    append_compensation(words, move.compensation);
     if (has_length_pending_ && move.named.test(static_cast<std::size_t>(Axis::Z)))
       append(words, take_length_call());
     append_coordinates(words, move);
@@ -332,6 +343,8 @@ class WordWriter final : public ProgramWriter {
   Plane plane_ = Plane::XY;
   bool has_length_pending_ = false;
   int tool_ = 0;
+  interpreter::CompensationSide side_ = interpreter::CompensationSide::Off;
+  int radius_number_ = 0;
   bool is_surface_ = false, has_speed_ = false;
   double limit_ = 0;
   bool has_flood_ = false, has_mist_ = false;

@@ -13,6 +13,7 @@ namespace {
 
 struct Tally {
   int proved = 0, refused = 0, different = 0;
+  int kept = 0;  ///< of those that are proved: with compensation
 };
 
 /// DRIPLINE_LIST=1 lists what was refused, and why.
@@ -43,6 +44,7 @@ void convert_all(std::string_view control, bool is_lathe, const ConversionOption
       const std::string reason = converted.reason();
       if (converted.is_proved) {
         ++tally.proved;
+        tally.kept += converted.written->compensation.is_used() ? 1 : 0;
       } else if (converted.refusal) {
         ++tally.refused;
         EXPECT_FALSE(reason.empty()) << golden.name;
@@ -62,7 +64,7 @@ int total(const std::map<std::string, Tally>& tallies, int Tally::*member) {
     sum += tally.*member;
     if (member == &Tally::proved)
       std::cout << name << ": " << tally.proved << " proved, " << tally.refused << " refused, "
-                << tally.different << " different\n";
+                << tally.different << " different, " << tally.kept << " with compensation\n";
   }
   return sum;
 }
@@ -93,6 +95,16 @@ TEST(RoundTrip, GoldenProgramsOfLathes) {
   for (const char* control : kLathes) convert_all(control, true, lenient(), tallies);
   EXPECT_GE(total(tallies, &Tally::proved), 195);
   EXPECT_LE(total(tallies, &Tally::different), 4);
+}
+
+/// Those that differ go around corners, up to a contour or away from it on other paths.
+TEST(RoundTrip, WithCompensationKept) {
+  ConversionOptions options = lenient();
+  options.keeps_compensation = true;
+  std::map<std::string, Tally> tallies;
+  for (const char* control : kMills) convert_all(control, false, options, tallies);
+  EXPECT_GE(total(tallies, &Tally::proved), 400);
+  EXPECT_GE(total(tallies, &Tally::kept), 30);
 }
 
 TEST(RoundTrip, WithoutAnyOption) {
