@@ -23,8 +23,9 @@ using post::WrittenProgram;
 constexpr std::size_t kMaxListedPlaces = 5;
 constexpr std::size_t kMaxLine = 200;
 
-constexpr std::array kOptions{"--control",   "--to-setup",      "--units",     "--name",
-                              "--tolerance", "--arcs-as-lines", "--as-set-up", "--json"};
+constexpr std::array kOptions{"--control",   "--to-setup",          "--units",
+                              "--name",      "--tolerance",         "--arcs-as-lines",
+                              "--as-set-up", "--keep-compensation", "--json"};
 
 /// What the adaptation changed: a member of the JSON, and the words of a note.
 struct Change {
@@ -83,11 +84,15 @@ std::string_view reason_of(Condition::Kind kind) {
   return {};
 }
 
-std::string line_at(std::string_view text, std::uint64_t offset) {
-  if (offset >= text.size()) return {};
-  std::string_view line = text.substr(offset, kMaxLine);
-  line = line.substr(0, line.find_first_of("\r\n"));
-  return std::string(line);
+/// The line of that number: offsets are those of a text with other radii, where there is one.
+std::string line_of(std::string_view text, std::uint64_t number) {
+  for (std::uint64_t line = 1; line < number; ++line) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return {};
+    text.remove_prefix(end + 1);
+  }
+  text = text.substr(0, std::min(kMaxLine, text.find_first_of("\r\n")));
+  return std::string(text);
 }
 
 /// A conversion with all that its messages need.
@@ -140,11 +145,15 @@ int complain_of_difference(const Work& work, const MotionResult& result, std::st
     print_error(" {}\n", what);
     const bool is_main = place.first.program == interpreter::kMainProgram;
     print_side(work.command.source.file.c_str(), work.place_of(place.first), place.first_text,
-               is_main ? line_at(work.program.text(), place.first.offset) : std::string());
+               is_main ? line_of(work.program.text(), place.first.line) : std::string());
     print_side(name.c_str(), fmt::format("line {}", place.second.line), place.second_text,
-               line_at(text, place.second.offset));
+               line_of(text, place.second.line));
   }
-  if (!work.command.is_as_set_up) {
+  if (work.command.keeps_compensation) {
+    print_error(
+        "dnc: compensation cannot be kept here: with one and the same radius both controls "
+        "lead the tool along other paths; without --keep-compensation the path is written\n");
+  } else if (!work.command.is_as_set_up) {
     print_error(
         "dnc: it was written from a start {} mm beside that of the setup, so that a program "
         "that depends on its start shows; --as-set-up writes it for that of the setup\n",
@@ -180,6 +189,11 @@ ordered_json summary_json(const Work& work, const WrittenProgram& written,
                           {"called", condition.place.program != interpreter::kMainProgram},
                           {"text", condition.text}});
   }
+  ordered_json radii = ordered_json::array();
+  for (const auto& [number, radius] : written.compensation.radii) {
+    radii.push_back(
+        {{"number", number}, {"radius", radius}, {"other_radius", radius * post::kOtherRadius}});
+  }
   return {{"input", work.command.source.file},
           {"output", work.command.output},
           {"from", work.program.dialect().name},
@@ -193,6 +207,7 @@ ordered_json summary_json(const Work& work, const WrittenProgram& written,
           {"comments", written.written.comments},
           {"comments_left_out", written.written.comments_left_out},
           {"proved", {{"actions", result.first_actions}, {"tolerance", written.tolerance}}},
+          {"kept_radii", std::move(radii)},
           {"changes", std::move(changes)},
           {"conditions", std::move(conditions)}};
 }
@@ -217,6 +232,12 @@ void print_notes(const Work& work, const WrittenProgram& written, const MotionRe
   if (written.written.comments_left_out > 0) {
     print_error("dnc: note: {} comments left out: {} has none\n", written.written.comments_left_out,
                 work.target.name);
+  }
+  for (const auto& [number, radius] : written.compensation.radii) {
+    print_error(
+        "dnc: note: compensation kept by radius {} of the control: proved with {:g} mm and "
+        "with {:g} mm\n",
+        number, radius, radius * post::kOtherRadius);
   }
   for (const Condition& condition : result.conditions) {
     print_error("dnc: note: {}: holds for this setup alone: {}{}{}\n",
@@ -272,6 +293,7 @@ Result<post::ConversionOptions> options_of(const MotionConversion& command,
   options.tolerance = command.tolerance;
   options.chord = command.chord;
   options.is_as_set_up = command.is_as_set_up;
+  options.keeps_compensation = command.keeps_compensation;
   options.is_to_stop = [] { return is_interrupted(); };
   return options;
 }
@@ -319,6 +341,12 @@ void add_motion_options(Command command, MotionConversion& options) {
       .add_flag("--as-set-up", options.is_as_set_up,
                 "Also write what depends on the setup: position at the start, variables, answers, "
                 "inputs, block skip")
+      .group(kGroup);
+  command
+      .add_flag("--keep-compensation", options.keeps_compensation,
+                "Write contours as programmed, with the control's words of cutter compensation, "
+                "instead of the path of the tool; proved with the radii of the setup, and with "
+                "others")
       .group(kGroup);
 }
 

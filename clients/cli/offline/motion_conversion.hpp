@@ -21,14 +21,15 @@ struct MotionConversion {
   std::string units;  ///< mm, in; empty: those of the source
   std::optional<std::uint64_t> name;
   std::optional<double> tolerance, chord;
-  bool is_as_set_up = false;
+  bool is_as_set_up = false, keeps_compensation = false;
 };
 
 /// The names that `--to` takes.
 std::vector<std::string> motion_targets();
 bool is_motion_target(std::string_view name);
 
-/// --control, --to-setup, --units, --name, --tolerance, --arcs-as-lines and --as-set-up.
+/// --control, --to-setup, --units, --name, --tolerance, --arcs-as-lines, --as-set-up and
+/// --keep-compensation.
 void add_motion_options(Command command, MotionConversion& options);
 /// The first of them that was given; empty: none.
 std::string given_motion_option(const Command& command);

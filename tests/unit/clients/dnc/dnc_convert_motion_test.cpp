@@ -106,12 +106,31 @@ TEST_F(DncConvertMotion, LeavesZToTheOperatorOfATwoAxisMill) {
       << ramp.err;
 }
 
+TEST_F(DncConvertMotion, KeepsCompensation) {
+  const auto kept =
+      dnc({"convert", "part.h", "-o", "kept.h", "--to", "itnc", "--keep-compensation"});
+  ASSERT_EQ(kept.status, 0) << kept.err;
+  EXPECT_NE(dnc.read("kept.h").find("L X+0 Y+0 RL F200\r\n"), std::string::npos)
+      << dnc.read("kept.h");
+  EXPECT_NE(kept.err.find("by radius 3 of the control: proved with 4 mm and with 3 mm"),
+            std::string::npos)
+      << kept.err;
+  dnc.write("kept.nc", "what was there before\n");
+  const auto refused =
+      dnc({"convert", "part.h", "-o", "kept.nc", "--to", "fanuc", "--keep-compensation"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("compensation cannot be kept here"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("  part.h, line "), std::string::npos) << refused.err;
+  EXPECT_EQ(dnc.read("kept.nc"), "what was there before\n");
+}
+
 TEST_F(DncConvertMotion, UsageErrors) {
   EXPECT_EQ(dnc({"convert", "part.h", "--to", "fanuc"}).status, 2);
   EXPECT_EQ(dnc({"convert", "part.h", "-o", "x", "--to", "fanuc", "--list"}).status, 2);
   EXPECT_EQ(dnc({"convert", "part.h", "-o", "x", "--to", "iso", "--name", "4"}).status, 2);
   EXPECT_EQ(dnc({"convert", "part.h", "-o", "x", "--to", "fanuc", "--to-setup", "none"}).status, 2);
   EXPECT_EQ(dnc({"convert", "none.h", "-o", "x", "--to", "fanuc"}).status, 2);
+  EXPECT_EQ(dnc({"convert", "part.h", "-o", "x", "--to", "iso", "--keep-compensation"}).status, 2);
 }
 
 }  // namespace
