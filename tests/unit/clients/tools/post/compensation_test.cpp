@@ -29,8 +29,9 @@ const std::string kBoss =
 const std::string kOneTool = "[[tool]]\nnumber = 3\nradius = 4.0\n";
 
 TEST(KeptCompensation, IsThatOfTheTool) {
-  for (const char* target : {"itnc", "tnc155"}) {
-    const auto converted = convert({"tnc155", kBoss}, target, keeping());
+  for (const auto& [control, target] : {std::pair{"tnc155", "itnc"}, std::pair{"tnc155", "tnc155"},
+                                        std::pair{"itnc", "tnc155"}, std::pair{"itnc", "itnc"}}) {
+    const auto converted = convert({control, kBoss}, target, keeping());
     ASSERT_TRUE(converted.is_proved) << target << converted.reason() << converted.text;
     EXPECT_NE(converted.text.find(" L X+0 Y+0 RL F200\r\n"), std::string::npos) << converted.text;
     EXPECT_NE(converted.text.find(" L X-20 Y-20 R0 FMAX\r\n"), std::string::npos) << converted.text;
@@ -86,6 +87,8 @@ TEST(KeptCompensation, IsProvedWithAnotherRadius) {
                             *kept.written, second, {});
   ASSERT_TRUE(result) << result.error().what;
   EXPECT_FALSE(result->is_same);
+  ASSERT_FALSE(result->places.empty());
+  EXPECT_NEAR(result->places.front().distance, 1, 1e-6);  // at Y3, and at Y4 with the first radius
 }
 
 struct NotKept {
