@@ -109,7 +109,8 @@ enum class Mark : std::uint8_t {
   Log,
   Abort,
   ProbeOpen,
-  ProbeClose
+  ProbeClose,
+  Python
 };
 struct MarkWord {
   std::string_view word;
@@ -117,11 +118,12 @@ struct MarkWord {
 };
 /// Longer words before their beginnings.
 constexpr std::array kMarks{
-    MarkWord{"DEBUG,", Mark::Debug},         MarkWord{"PRINT,", Mark::Print},
-    MarkWord{"LOGOPEN,", Mark::LogOpen},     MarkWord{"LOGAPPEND,", Mark::LogAppend},
-    MarkWord{"LOGCLOSE", Mark::LogClose},    MarkWord{"LOG,", Mark::Log},
-    MarkWord{"ABORT,", Mark::Abort},         MarkWord{"PROBEOPEN", Mark::ProbeOpen},
-    MarkWord{"PROBECLOSE", Mark::ProbeClose}};
+    MarkWord{"DEBUG,", Mark::Debug},          MarkWord{"PRINT,", Mark::Print},
+    MarkWord{"LOGOPEN,", Mark::LogOpen},      MarkWord{"LOGAPPEND,", Mark::LogAppend},
+    MarkWord{"LOGCLOSE", Mark::LogClose},     MarkWord{"LOG,", Mark::Log},
+    MarkWord{"ABORT,", Mark::Abort},          MarkWord{"PROBEOPEN", Mark::ProbeOpen},
+    MarkWord{"PROBECLOSE", Mark::ProbeClose}, MarkWord{"PY,", Mark::Python},
+    MarkWord{"PYRUN,", Mark::Python},         MarkWord{"PYRELOAD", Mark::Python}};
 
 bool execute_mark(Run& run, Mark mark, const char* at, const char* end) {
   EventSink& events = run.events();
@@ -144,6 +146,8 @@ bool execute_mark(Run& run, Mark mark, const char* at, const char* end) {
     case Mark::ProbeClose:
       events.on_close({run.origin, OutputDevice::File});
       return true;
+    case Mark::Python:  // may set parameters, or refuse the program: what it does is not known here
+      return run.fail(ErrorCode::NotSupported, 0, "Python in a comment");
     case Mark::Abort:
       break;
   }
