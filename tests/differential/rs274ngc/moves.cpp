@@ -9,13 +9,6 @@ namespace {
 
 constexpr double kStanding = 1e-7;
 
-bool is_near(const std::array<double, 6>& a, const std::array<double, 6>& b, double within) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (std::fabs(a[i] - b[i]) > within) return false;
-  }
-  return true;
-}
-
 /// Along one and the same axis, and in its direction.
 bool continues(const std::array<double, 6>& before, const std::array<double, 6>& at,
                const std::array<double, 6>& to) {
@@ -39,6 +32,13 @@ bool is_same(const Move& a, const Move& b, double tolerance) {
 }
 
 }  // namespace
+
+bool is_near(const std::array<double, 6>& a, const std::array<double, 6>& b, double within) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::fabs(a[i] - b[i]) > within) return false;
+  }
+  return true;
+}
 
 std::string text_of(const Move& move) {
   constexpr const char* kKinds[] = {"rapid", "feed", "arc"};

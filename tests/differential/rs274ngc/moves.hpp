@@ -15,6 +15,7 @@ struct Move {
   int circles = 0;                 ///< of an arc: 1, 2.. counterclockwise, -1, -2.. clockwise
 };
 std::string text_of(const Move& move);
+bool is_near(const std::array<double, 6>& a, const std::array<double, 6>& b, double within);
 
 /// What a program did, and whether it was taken to its end.
 struct Behavior {

@@ -37,15 +37,24 @@ std::vector<double> arguments(std::string_view text) {
   return values;
 }
 
+/// The call's name; a sequence number of six digits touches it.
+std::string_view name_before(std::string_view line, std::size_t open) {
+  std::string_view name = line.substr(0, open);
+  name.remove_prefix(name.rfind(' ') + 1);
+  const std::size_t letters = name.find_first_not_of("0123456789", 1);
+  const bool is_numbered = name.size() > 1 && name[0] == 'N' && letters > 1;
+  if (is_numbered && letters != std::string_view::npos) name.remove_prefix(letters);
+  return name;
+}
+
 /// Follows the calls that the peer prints.
 class CallReader {
  public:
   void read(std::string_view line) {
     const std::size_t open = line.find('(');
     if (open == std::string_view::npos) return;
-    const std::size_t blank = line.rfind(' ', open);
-    const std::string_view name = line.substr(blank + 1, open - blank - 1);
-    const std::vector<double> values = arguments(line.substr(blank + 1));
+    const std::string_view name = name_before(line, open);
+    const std::vector<double> values = arguments(line.substr(open));
     if (name == "USE_LENGTH_UNITS") {
       mm_ = line.find("INCHES") != std::string_view::npos ? kInch
             : line.find("_CM") != std::string_view::npos  ? 10
@@ -62,6 +71,10 @@ class CallReader {
       rotation_ = values.at(0);
     } else if (name == "STRAIGHT_TRAVERSE" || name == "STRAIGHT_FEED") {
       straight(name == "STRAIGHT_TRAVERSE" ? Move::Kind::Rapid : Move::Kind::Feed, values);
+    } else if (name == "RIGID_TAP") {
+      tap(values);
+    } else if (name == "USE_TOOL_LENGTH_OFFSET") {
+      change_length(values);
     } else if (name == "ARC_FEED") {
       arc(values);
     }
@@ -90,7 +103,31 @@ class CallReader {
     move.kind = kind;
     take(values, 0, at_);
     move.to = machine(at_);
-    moves.push_back(move);
+    // G53 to where the axes are after a change of length: nothing moves.
+    const bool is_standstill = is_length_changed_ && is_near(move.to, tip_, 1e-7);
+    if (!is_standstill) moves.push_back(move);
+    arrive(move.to);
+  }
+  void arrive(const Point& to) {
+    tip_ = to;
+    is_length_changed_ = false;
+  }
+  void change_length(const std::vector<double>& values) {
+    const Point before = length_;
+    take(values, 0, length_);
+    for (std::size_t i = 0; i < 6; ++i) tip_[i] += before[i] - length_[i];
+    is_length_changed_ = true;
+  }
+  /// G33.1: in, and out again to where it began.
+  void tap(const std::vector<double>& values) {
+    Move in, out;
+    in.kind = out.kind = Move::Kind::Feed;
+    out.to = machine(at_);
+    Point bottom = at_;
+    take({values.begin(), values.begin() + 3}, 0, bottom);
+    in.to = machine(bottom);
+    moves.push_back(in);
+    moves.push_back(out);
   }
   /// first end, second end, first center, second center, circles, end along the third, A, B, C
   void arc(const std::vector<double>& values) {
@@ -111,12 +148,14 @@ class CallReader {
     move.circles = static_cast<int>(values.at(4));
     move.to = machine(at_);
     moves.push_back(move);
+    arrive(move.to);
   }
 
   double mm_ = 1;
   int plane_ = 0;
   double rotation_ = 0;
-  Point g5x_{}, g92_{}, at_{};
+  Point g5x_{}, g92_{}, at_{}, tip_{}, length_{};
+  bool is_length_changed_ = false;
 };
 
 }  // namespace
