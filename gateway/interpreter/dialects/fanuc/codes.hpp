@@ -50,6 +50,8 @@ inline constexpr std::uint8_t kTipControl = 158;         ///< G43.4
 inline constexpr std::uint8_t kTiltedPlane = 159;        ///< G68.2
 inline constexpr std::uint8_t kAxisDirection = 164;      ///< G53.1
 inline constexpr std::uint8_t kTipVector = 165;          ///< G43.5
+inline constexpr std::uint8_t kRigidTap = 166;           ///< G84.2
+inline constexpr std::uint8_t kRigidTapLeft = 167;       ///< G84.3
 
 // Of lathes, whose numbers depend on the G-code system.
 inline constexpr std::uint8_t kBoxTurning = 160;      ///< G90 of system A
@@ -71,7 +73,8 @@ inline constexpr std::array kCodesWithPoint{
     WrittenCode{1070, kCylinder},       WrittenCode{1120, kPolarPlaneOn},
     WrittenCode{1130, kPolarPlaneOff},  WrittenCode{434, kTipControl},
     WrittenCode{531, kAxisDirection},   WrittenCode{682, kTiltedPlane},
-    WrittenCode{435, kTipVector},
+    WrittenCode{435, kTipVector},       WrittenCode{842, kRigidTap},
+    WrittenCode{843, kRigidTapLeft},
 };
 /// Of machines with a tilting table or head: they need to know how its axes lie. In tenths.
 inline constexpr std::array kFiveAxisCodes{412, 413, 414, 415, 416, 422, 423, 424, 425,
@@ -95,7 +98,7 @@ constexpr std::array<std::uint8_t, 180> groups_of_codes() {
   put(kUnitsGroup, 20, 21);
   put(kCompensationGroup, 40, 41, 42);
   put(kLengthGroup, 43, 44, 49, kTipControl, kTipVector);
-  put(kCycleGroup, 73, 74, 76, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89);
+  put(kCycleGroup, 73, 74, 76, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89, kRigidTap, kRigidTapLeft);
   put(kReturnGroup, 98, 99);
   put(kScalingGroup, 50, 51);
   put(kModalCallGroup, 66, 67);
@@ -116,6 +119,10 @@ constexpr std::uint8_t group_of(std::uint8_t code) {
   return code < kGroupOfCode.size() ? kGroupOfCode[code] : kNoGroup;
 }
 
+/// G84.2 and G84.3: rigid tapping without M29.
+constexpr bool is_rigid_tap(std::uint8_t code) {
+  return code == kRigidTap || code == kRigidTapLeft;
+}
 /// G43.4 and G43.5.
 constexpr bool is_tip_control(std::uint8_t code) {
   return code == kTipControl || code == kTipVector;

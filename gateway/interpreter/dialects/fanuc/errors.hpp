@@ -79,6 +79,7 @@ struct ErrorCode {
   static constexpr DiagnosticRow NoSpeed{"PS200", "ILLEGAL S CODE COMMAND"};
   static constexpr DiagnosticRow ExternalCall{"PS210", "CAN NOT COMMAND M198/M199"};
   static constexpr DiagnosticRow ParameterNumber{"PS231", "ILLEGAL FORMAT IN G10 L50"};
+  static constexpr DiagnosticRow ShapeCommand{"PS325", "UNAVAILABLE COMMAND IS IN SHAPE PROGRAM"};
   static constexpr DiagnosticRow NoInverseFeed{"PS1202", "NO F COMMAND AT G93"};
   static constexpr DiagnosticRow EndOfRecord{"PS5010", "END OF RECORD"};
   static constexpr DiagnosticRow TipControl{"PS5421", "ILLEGAL COMMAND IN G43.4/G43.5"};

@@ -235,7 +235,8 @@ ActiveModes FanucInterpreter::modes() const {
   modes.tool_radius = Length::mm(radius_of_offset(run_, state.d_number));
   const Length feed = Length::mm(state.feed[state.is_per_revolution()]);
   modes.feed = state.is_per_revolution() ? Feed::per_revolution(feed) : Feed::per_minute(feed);
-  modes.cycle = hole_cycle_name(state.g[kCycleGroup]);
+  const std::uint8_t cycle = state.g[kCycleGroup];
+  modes.cycle = hole_cycle_name(cycle == kRigidTap ? 84 : cycle == kRigidTapLeft ? 74 : cycle);
   modes.frame_changes = run_.frame_changes;
   return modes;
 }

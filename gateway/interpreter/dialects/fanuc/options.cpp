@@ -25,12 +25,14 @@ struct ModelRow {
   std::uint32_t last_sequence = 99'999;
   bool has_program_names = false;
   std::size_t max_pockets = 10;
+  bool has_rigid_tap_codes = false;
+  bool compensates_in_contour = true;
 };
 constexpr ModelRow kSixteenI{RepeatAddress::K, CallForm::EightDigits, 4, 149, 531, true, true};
 constexpr std::array<ModelRow, 9> kModels{
     {{RepeatAddress::Both, CallForm::EightDigits, 4, 149, 531, false, false, false, 4, 9999},
      {RepeatAddress::L, CallForm::L, 2, 149, 531, false, false, false, 4, 9999},
-     {RepeatAddress::L, CallForm::L, 4, 199, 599},
+     {RepeatAddress::L, CallForm::L, 4, 199, 599, true, false, false, 4, 99'999, false, 10, true},
      {RepeatAddress::K, CallForm::EightDigits, 4, 149, 531},
      {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true, false, 4, 99'999, false,
       0},
@@ -38,7 +40,7 @@ constexpr std::array<ModelRow, 9> kModels{
      kSixteenI,
      kSixteenI,
      {RepeatAddress::K, CallForm::EightDigits, 10, 199, 999, true, true, true, 4, 99'999'999, true,
-      0}}};
+      0, false, false}}};
 
 AxisValues values_of(const Position& position) {
   AxisValues values{};
@@ -64,6 +66,8 @@ Result<void> read_model(const Options& options, const OptionKey& key, Control& c
   control.last_sequence = row.last_sequence;
   control.has_program_names = row.has_program_names;
   control.max_pockets = row.max_pockets;
+  control.has_rigid_tap_codes = row.has_rigid_tap_codes;
+  control.compensates_in_contour = row.compensates_in_contour;
   if (row.call_depth > 8) control.max_nesting = 15;
   return {};
 }
@@ -216,8 +220,9 @@ Result<void> read_skip_levels(const Options& options, const OptionKey& key, Cont
 constexpr std::array kSharedRows{
     Row{{"model", "0M|6M|11M|16M|0i|16i|18i|21i|30i",
          "sets the defaults of repeat_address, m98_form, max_call_depth, last_common, last_kept, "
-         "program_digits, program_names; whether the control has G54.1, MOD and POW, and the long "
-         "numbers of system variables; of a lathe, how many pockets G71 and G72 cut",
+         "program_digits, program_names, rigid_tap_codes; whether the control has G54.1, MOD and "
+         "POW, and the long numbers of system variables, names of variables and PRM; of a lathe, "
+         "how many pockets G71 and G72 cut, and whether G41 and G42 may be within a contour",
          "16M"},
         read_model},
     row<&Control::calculator_point>(
@@ -322,6 +327,9 @@ constexpr std::array kMillRows{
     row<&Control::peck_clearance>("g83_clearance", kLength,
                                   "where G83 goes from rapid to feed, above the last depth",
                                   kNotNegative, "", "1 mm, 0.04 in"),
+    row<&Control::has_rigid_tap_codes>(
+        "rigid_tap_codes", kFlag,
+        "the control has G84.2 and G84.3, rigid tapping without M29 (Series 15 format)"),
     row<&Control::peck_tap_leaves>("peck_tapping", "high-speed|standard",
                                    "a peck of rigid tapping goes back a little, or out to R"),
     row<&Control::peck_tap_return>("peck_tapping_return", kLength,

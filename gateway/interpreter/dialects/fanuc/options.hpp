@@ -31,9 +31,11 @@ struct ControlOptions {
   Model model = Model::M16;
   bool has_pages = true;                 ///< G54.1
   bool has_later_functions = false;      ///< MOD, POW
-  bool has_long_variables = false;       ///< #100001 and up, #14001, #4201
+  bool has_long_variables = false;       ///< #100001 and up, #14001, #4201; PRM, names of variables
   int program_digits = 4;                ///< of O numbers
   bool has_program_names = false;        ///< <NAME> instead of an O number
+  bool has_rigid_tap_codes = false;      ///< G84.2 and G84.3
+  bool compensates_in_contour = true;    ///< G40 to G42 from P to Q of G70
   std::uint32_t last_sequence = 99'999;  ///< of N
   bool calculator_point = false;
   bool has_tool_changer = true;  ///< false: M06 stops for the operator's hands

@@ -304,6 +304,8 @@ struct ModalState {
   bool is_inverse_time() const { return g[kFeedGroup] == 93; }
   bool is_per_revolution() const { return g[kFeedGroup] == 95; }
   bool is_cycle() const { return g[kCycleGroup] != 80; }
+  /// After M29, and with codes of their own.
+  bool taps_rigidly() const { return is_rigid_tapping || is_rigid_tap(g[kCycleGroup]); }
   bool is_compensating() const { return g[kCompensationGroup] != 40; }
   Plane plane() const {
     return g[kPlaneGroup] == 18 ? Plane::ZX : g[kPlaneGroup] == 19 ? Plane::YZ : Plane::XY;

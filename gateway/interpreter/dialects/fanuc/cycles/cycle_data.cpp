@@ -43,12 +43,12 @@ bool check_other_repeats(Run& run, AddressSet taken) {
 }  // namespace
 
 bool is_tapping(std::uint8_t code) {
-  return code == 74 || code == 84;
+  return code == 74 || code == 84 || is_rigid_tap(code);
 }
 
 bool pecks_in_tap(const Run& run) {
   const ModalState& state = run.state;
-  return state.is_rigid_tapping && is_tapping(state.g[kCycleGroup]) && state.cycle.has_depth &&
+  return state.taps_rigidly() && is_tapping(state.g[kCycleGroup]) && state.cycle.has_depth &&
          state.cycle.depth > 0;
 }
 
@@ -118,10 +118,10 @@ bool keep_data(Run& run, double present) {
   }
   if (code == 76 && !shifts) run.warn(WarningCode::CycleWithoutShift, run.block.parts.g_column);
   if (!is_tapping(code)) return true;
-  if (!state.is_rigid_tapping && state.spindle.revolutions == 0) {
+  if (!state.taps_rigidly() && state.spindle.revolutions == 0) {
     run.warn(WarningCode::TapWithoutSpeed, run.block.parts.g_column);
   }
-  if (!state.is_rigid_tapping && words.has(Q) && data.depth > 0) {
+  if (!state.taps_rigidly() && words.has(Q) && data.depth > 0) {
     return run.fail(ErrorCode::ImproperCommand, words.column(Q),
                     "a tap pecks only in rigid tapping (M29)");
   }

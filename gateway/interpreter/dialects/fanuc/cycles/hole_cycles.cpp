@@ -64,9 +64,13 @@ constexpr std::array kCycles{
               FormerDirection, RapidToReturn}},
     CycleRow{89, {RapidToRetract, FeedToBottom, Dwell, FeedToRetract, RapidToReturn}}};
 
+/// G84.2 and G84.3 are G84 and G74 with the spindle led (Series 11 operator's manual, canned
+/// cycles, rigid tapping; Series 30i user's manual for machining centers, Series 15 program
+/// format).
 const CycleRow& cycle_row(std::uint8_t code) {
+  const std::uint8_t steps = code == kRigidTap ? 84 : code == kRigidTapLeft ? 74 : code;
   return *std::find_if(kCycles.begin(), kCycles.end(),
-                       [code](const CycleRow& row) { return row.code == code; });
+                       [steps](const CycleRow& row) { return row.code == steps; });
 }
 
 /// Of a thread that a rigid tap cuts, millimeters.
@@ -163,13 +167,13 @@ class Hole {
       case RapidToRetract:  // for G87 the tool stays shifted on its path down
         return run_.state.g[kCycleGroup] != 87 ? rapid(data().retract) : out(data().retract);
       case FeedToBottom:
-        return run_.state.is_rigid_tapping ? tap_down() : feed(data().bottom);
+        return run_.state.taps_rigidly() ? tap_down() : feed(data().bottom);
       case PeckWithBreak:
         return peck(false);
       case PeckWithRetract:
         return peck(true);
       case FeedToRetract:
-        return run_.state.is_rigid_tapping ? tap(data().retract) : feed(data().retract);
+        return run_.state.taps_rigidly() ? tap(data().retract) : feed(data().retract);
       case RapidToReturn:
         return out(return_level());
       case RapidToInitial:

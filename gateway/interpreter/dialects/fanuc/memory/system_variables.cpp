@@ -143,6 +143,8 @@ bool read_modal(Run& run, int number, std::uint32_t column, double& value) {
             : code == kTipControl    ? 43.4
             : code == kTipVector     ? 43.5
             : code == kTiltedPlane   ? 68.2
+            : code == kRigidTap      ? 84.2
+            : code == kRigidTapLeft  ? 84.3
                                      : code;
     return true;
   }

@@ -31,6 +31,10 @@ bool refuse_g(Run& run, const Word& word) {
   const bool is_five_axis =
       std::find(kFiveAxisCodes.begin(), kFiveAxisCodes.end(), tenths) != kFiveAxisCodes.end();
   std::string text = fmt::format("G{}", word.value);
+  if (tenths == 842 || tenths == 843)
+    text +=
+        " is of the 11M and of later controls in Series 15 format (rigid_tap_codes); M29 and G84 "
+        "here";
   if (is_five_axis) {
     text += run.options.kinematics.exists()
                 ? " is not known here; of tilting machines there are G43.4, G43.5, G53.1 and G68.2"
@@ -67,8 +71,10 @@ bool add_g(Run& run, const Word& word) {
     }
   }
   const std::uint8_t group = group_of(code);
-  if (group == kNoGroup || (needs_kinematics(code) && !run.options.kinematics.exists()))
-      [[unlikely]]
+  const bool is_known = group != kNoGroup &&
+                        (!needs_kinematics(code) || run.options.kinematics.exists()) &&
+                        (!is_rigid_tap(code) || run.options.has_rigid_tap_codes);
+  if (!is_known) [[unlikely]]
     return refuse_g(run, word);
   block.parts.g_column = word.column;
   if (group == kOneShot) {

@@ -160,8 +160,15 @@ bool check_first_block(Run& run) {
 
 /// The manual excludes one-shot codes but G04, motion codes but G00 to G03, and G20 and G21. What
 /// moves the zero, the plane or the coordinates is excluded here: roughing knows one of each.
+/// A 30i-T has G41 and G42 before the cycle and G40 after it (user's manual for lathes, multiple
+/// repetitive cycles, limitations); older lathes take them within the contour, for G70.
 bool check_contour_block(Run& run) {
   const Block& block = run.block;
+  if (block.names(kCompensationGroup) && !run.options.compensates_in_contour) {
+    return run.fail(
+        ErrorCode::ShapeCommand, block.parts.g_column,
+        fmt::format("G{} comes before the cycle, G40 after it", block.g[kCompensationGroup]));
+  }
   const std::uint8_t one_shot = block.parts.one_shot;
   const std::uint8_t motion =
       block.names(kMotionGroup) ? block.g[kMotionGroup] : run.state.g[kMotionGroup];
