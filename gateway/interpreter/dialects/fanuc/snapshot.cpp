@@ -1,4 +1,5 @@
 #include "gateway/interpreter/core/language/state_archive.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/variable_names.hpp"
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -18,8 +19,8 @@ void visit(Archive& archive, ModalState& state) {
           state.intermediate, state.has_intermediate, state.imaginary, state.held, state.skip,
           state.last, state.polar_angle, state.polar_radius, state.offset_list,
           state.is_rigid_tapping, state.locals, state.commons, state.kept, state.extra,
-          state.counters, state.calls, state.loops, state.modals, state.modal_active, state.jump,
-          state.limits);
+          state.variable_names, state.counters, state.calls, state.loops, state.modals,
+          state.modal_active, state.jump, state.limits);
 }
 
 namespace {
@@ -27,7 +28,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_lathe ? "fanuc-t" : "fanuc";
 }
-constexpr std::uint32_t kVersion = 15;
+constexpr std::uint32_t kVersion = 16;
 
 template <class Archive>
 void visit_memory(Archive& archive, Memory& memory) {
@@ -61,6 +62,7 @@ bool has_plausible_codes(const ModalState& state) {
 bool has_plausible_stacks(const ModalState& state) {
   if (state.calls.size() > kMaxFrames || state.loops.size() > kMaxLoops ||
       (!state.extra.empty() && state.extra.size() != kExtraCount) ||
+      (!state.variable_names.empty() && state.variable_names.size() != kNamedCount) ||
       state.modals.size() > kMaxModalCalls || state.locals.size() > kMaxMacroLevels) {
     return false;
   }

@@ -285,9 +285,10 @@ struct ModalState {
   bool is_rigid_tapping = false;  ///< M29, until the mode of hole cycles ends
 
   std::vector<Locals> locals{Locals{}};
-  std::array<double, 100> commons{};  ///< #100
-  std::array<double, 500> kept{};     ///< #500
-  std::vector<double> extra;          ///< #98000 to #98499; empty: all null
+  std::array<double, 100> commons{};        ///< #100
+  std::array<double, 500> kept{};           ///< #500
+  std::vector<double> extra;                ///< #98000 to #98499; empty: all null
+  std::vector<std::string> variable_names;  ///< of #500 to #549; empty: none has one
   /// When #3001 was 0 (milliseconds since 1970, null: not begun), #3002, #3003, #3004, #3005,
   /// #3901, #3902.
   std::array<double, 7> counters{kNull};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/dialects/fanuc/execution/output_text.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/variable_names.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
@@ -52,7 +53,9 @@ bool read_assignment(Run& run, const char*& at) {
   Block::Parts& parts = run.block.parts;
   parts.statement_column = run.column(at);
   int number = 0;
-  if (!read_variable_number(run, at, number)) return false;
+  const bool has_name = is_named_variable(at);
+  if (!(has_name ? read_variable_name(run, at, number) : read_variable_number(run, at, number)))
+    return false;
   skip_gaps(run, at);
   if (*at != '=') return refuse_format(run, at, "= is expected here");
   ++at;
@@ -146,7 +149,7 @@ bool read_if(Run& run, const char* start, const char*& at) {
   } else if (take_word(at, "THEN")) {
     skip_gaps(run, at);
     const char* statement = at;
-    if (*at == '#') {
+    if (*at == '#' || is_named_variable(at)) {
       if (!holds) {
         at = find_block_end(run, at);
       } else if (!read_assignment(run, at)) {
@@ -202,6 +205,8 @@ bool read_statement(Run& run, Keyword keyword, const char* start, const char*& a
       return read_do(run, start, at, true);
     case Keyword::End:
       return read_end(run, start, at);
+    case Keyword::Setvn:
+      return read_naming(run, start, at);
     case Keyword::Popen:
     case Keyword::Pclos:
     case Keyword::Dprnt:
@@ -223,6 +228,8 @@ bool execute_statement(Run& run) {
       return plan_jump(run, JumpKind::Goto);
     case StatementKind::Loop:
       return plan_jump(run, JumpKind::Loop);
+    case StatementKind::Name:
+      return name_variables(run);
     case StatementKind::EndLoop:
       return true;  // flow.cpp goes back when the block is left
     default:

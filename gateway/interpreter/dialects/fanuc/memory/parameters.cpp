@@ -34,7 +34,47 @@ double value_of(const Run& run, const Word& word, Unit unit) {
   return word.form == WordForm::Whole ? word.value / 1000 : word.value;
 }
 
+/// Bits that options stand for: decimal point of a calculator (DPI), start-up of compensation
+/// (SUP), offsets as diameters (ODI).
+struct BitRow {
+  int number;
+  int bit;
+  bool ControlOptions::*value;
+  bool is_of_lathes;  ///< as well
+};
+constexpr std::array kBits{BitRow{3401, 0, &ControlOptions::calculator_point, true},
+                           BitRow{5003, 0, &ControlOptions::start_up_b, true},
+                           BitRow{5004, 2, &ControlOptions::diameter_offset, false}};
+
+bool refuse_parameter(Run& run, const ParameterName& name, std::uint32_t column) {
+  const std::string bit = name.bit ? fmt::format(",{}", *name.bit) : "";
+  return run.fail(ErrorCode::IllegalArgument, column,
+                  fmt::format("PRM[{}{}]{}: known here are 3410, 5114, 5115 and the bits 3401,0 "
+                              "5003,0 5004,2",
+                              name.number, bit, name.has_axis ? "/[..]" : ""));
+}
+
 }  // namespace
+
+bool read_parameter(Run& run, const ParameterName& name, std::uint32_t column, double& value) {
+  if (name.has_axis) return refuse_parameter(run, name, column);
+  if (name.bit) {
+    for (const BitRow& row : kBits) {
+      if (row.number != name.number || row.bit != *name.bit) continue;
+      if (run.options.is_lathe && !row.is_of_lathes) break;
+      value = run.options.*row.value ? 1 : 0;
+      return true;
+    }
+    return refuse_parameter(run, name, column);
+  }
+  for (const ParameterRow& row : kParameters) {
+    // What the angle and the factor count in depends on other parameters.
+    if (row.number != name.number || row.unit != Unit::Length) continue;
+    value = run.in_length_units(run.state.parameters.*row.value);
+    return true;
+  }
+  return refuse_parameter(run, name, column);
+}
 
 bool begin_parameters(Run& run) {
   run.ledger.take(set_of(L));

@@ -113,6 +113,7 @@ enum class StatementKind : std::uint8_t {
   OpenPort,
   ClosePort,
   Print,
+  Name,  ///< SETVN
 };
 
 /// What ends the block besides running on to the next one.
@@ -173,7 +174,7 @@ struct Block {
     std::int32_t variable = 0;
     std::uint32_t statement_column = 0;
     double value = 0;
-    std::uint32_t message_begin = 0;  ///< of #3000 and #3006
+    std::uint32_t message_begin = 0;  ///< of #3000 and #3006; the names of SETVN
     std::uint32_t message_end = 0;
   };
   struct PendingWarning {

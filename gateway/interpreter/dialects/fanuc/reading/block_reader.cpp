@@ -6,6 +6,7 @@
 
 #include "gateway/interpreter/core/language/number.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/variable_names.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/call_arguments.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/g_words.hpp"
@@ -230,6 +231,10 @@ bool read_other_item(Run& run, const char*& at) {
       skip_gaps(run, at);
       return true;
     case '#':
+      run.block.parts.has_code = true;
+      return read_assignment_block(run, at);
+    case '[':
+      if (!is_named_variable(at)) break;
       run.block.parts.has_code = true;
       return read_assignment_block(run, at);
     case ',':

@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "gateway/interpreter/core/language/number.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/parameters.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/variable_names.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
 
@@ -211,7 +213,7 @@ class Terms {
       case CharKind::Point:
         return constant(value);
       case CharKind::OpenBracket:
-        return bracketed(value);
+        return is_named_variable(at_) ? named_variable(value) : bracketed(value);
       case CharKind::Hash:
         return variable(value);
       case CharKind::Letter:
@@ -238,6 +240,12 @@ class Terms {
     int number = 0;
     return variable_number(number) && read_variable(run_, number, run_.column(start), value);
   }
+  bool named_variable(double& value) {
+    const char* start = at_;
+    int number = 0;
+    return read_variable_name(run_, at_, number) &&
+           read_variable(run_, number, run_.column(start), value);
+  }
 
  public:
   bool variable_number(int& number) {
@@ -260,7 +268,9 @@ class Terms {
       --depth_;
       if (!ok) return false;
     } else {
-      return here(ErrorCode::MacroFormat, "# needs the number of a variable");
+      const bool is_name = is_letter(*at_) || *at_ == '<' || *at_ == '_';
+      return here(ErrorCode::MacroFormat, is_name ? "a name of a variable is written [#NAME]"
+                                                  : "# needs the number of a variable");
     }
     value = std::round(or_zero(value));
     if (!(value >= 0 && value <= kLastVariable)) {
@@ -273,6 +283,7 @@ class Terms {
  private:
   bool call(double& value) {
     const char* start = at_;
+    if (take_word(at_, "PRM")) return parameter(start, value);
     const Function function = take_function(at_);
     if (function == Function::Pow && !run_.options.has_later_functions) {
       at_ = start;
@@ -294,6 +305,22 @@ class Terms {
       return finish(power_of(argument, or_zero(*second)), value);
     }
     return finish(compute(function, argument), value);
+  }
+
+  /// PRM[number] and PRM[number,bit]; the axis of /[k] has no parameter here.
+  bool parameter(const char* start, double& value) {
+    if (!run_.options.has_long_variables) {
+      at_ = start;
+      return here(ErrorCode::MacroFormat, "PRM on this model");
+    }
+    skip_gaps();
+    if (*at_ != '[') return here(ErrorCode::MacroFormat, "[ is expected here");
+    double number = 0;
+    std::optional<double> bit;
+    if (!bracketed(number, &bit)) return false;
+    skip_gaps();
+    const bool has_axis = *at_ == '/' && *skip_blanks(at_ + 1) == '[';
+    return read_parameter(run_, {or_zero(number), bit, has_axis}, run_.column(start), value);
   }
 
   /// ATAN[y]/[x], or ATAN[y] alone.

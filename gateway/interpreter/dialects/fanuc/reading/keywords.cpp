@@ -14,8 +14,9 @@ constexpr std::array kKeywords{
     Spelling<Keyword>{"IF", Keyword::If},       Spelling<Keyword>{"THEN", Keyword::Then},
     Spelling<Keyword>{"GOTO", Keyword::Goto},   Spelling<Keyword>{"WHILE", Keyword::While},
     Spelling<Keyword>{"DO", Keyword::Do},       Spelling<Keyword>{"END", Keyword::End},
-    Spelling<Keyword>{"POPEN", Keyword::Popen}, Spelling<Keyword>{"PCLOS", Keyword::Pclos},
-    Spelling<Keyword>{"DPRNT", Keyword::Dprnt}, Spelling<Keyword>{"BPRNT", Keyword::Bprnt},
+    Spelling<Keyword>{"SETVN", Keyword::Setvn}, Spelling<Keyword>{"POPEN", Keyword::Popen},
+    Spelling<Keyword>{"PCLOS", Keyword::Pclos}, Spelling<Keyword>{"DPRNT", Keyword::Dprnt},
+    Spelling<Keyword>{"BPRNT", Keyword::Bprnt},
 };
 constexpr std::array kFunctions{
     Spelling<Function>{"SIN", Function::Sin},     Spelling<Function>{"COS", Function::Cos},

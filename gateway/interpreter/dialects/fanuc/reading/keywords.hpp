@@ -17,6 +17,7 @@ enum class Keyword : std::uint8_t {
   While,
   Do,
   End,
+  Setvn,
   Popen,
   Pclos,
   Dprnt,
