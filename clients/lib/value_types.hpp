@@ -20,6 +20,12 @@ struct ControlOutput {
   bool on = false;
 };
 
+/// An analog output that a program has set.
+struct ControlAnalogOutput {
+  std::int64_t output = 0;
+  double value = 0;
+};
+
 /// An input that the machine reports.
 struct ControlInput {
   std::string name;
@@ -32,7 +38,10 @@ struct ControlValues {
   std::vector<ControlValue> values;
   std::optional<std::uint64_t> next = {};  ///< how many to pass over for the rest
   std::vector<ControlOutput> outputs;
-  std::vector<std::int64_t> codes;        ///< M functions handed to the machine, the last one first
+  std::vector<ControlAnalogOutput> analog = {};  ///< none from an older gateway
+  std::vector<std::int64_t> codes;  ///< M functions handed to the machine, the last one first
+  std::vector<std::string> functions =
+      {};                                 ///< the same with their words; none from an older gateway
   std::vector<ControlInput> inputs = {};  ///< none from an older gateway
 };
 

@@ -175,8 +175,10 @@ void ExecutionRecorder::on_pin(const interpreter::PinChange& pin) {
 }
 
 void ExecutionRecorder::on_miscellaneous(const interpreter::Miscellaneous& function) {
-  codes_.push_front(function.code);
-  if (codes_.size() > kMaxCodes) codes_.pop_back();
+  functions_.push_front({function.code, function.e, function.p, function.q});
+  if (functions_.size() > kMaxCodes) functions_.pop_back();
+  const bool is_analog = function.code == 67 || function.code == 68;
+  if (is_analog && function.e && function.q) analog_[static_cast<int>(*function.e)] = *function.q;
 }
 
 void ExecutionRecorder::on_stop(const interpreter::Stop& stop) {

@@ -73,8 +73,15 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   /// Outputs that programs have switched since the gateway began, as executed blocks left them.
   using Outputs = std::map<std::pair<interpreter::Axis, int>, bool>;
   const Outputs& switched() const { return switched_; }
+  /// Analog outputs that programs have set since the gateway began (M67, M68).
+  const std::map<int, double>& analog() const { return analog_; }
+  /// An M function with its words, where the control hands them on.
+  struct Function {
+    int code = 0;
+    std::optional<double> e = {}, p = {}, q = {};
+  };
   /// M functions handed to the machine, the last one first; at most kMaxCodes.
-  const std::deque<int>& codes() const { return codes_; }
+  const std::deque<Function>& functions() const { return functions_; }
   static constexpr std::size_t kMaxCodes = 16;
 
   /// Text of the last stop or message, for the operator.
@@ -140,7 +147,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   std::optional<interpreter::Diagnostic> alarm_;
   bool has_ended_ = false, was_aborted_ = false;
   Outputs switched_;
-  std::deque<int> codes_;
+  std::map<int, double> analog_;
+  std::deque<Function> functions_;
 };
 
 }  // namespace dripline::gateway

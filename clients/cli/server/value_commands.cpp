@@ -47,19 +47,33 @@ int show_parameters(Context& context, client::Client& client, const ValuesComman
 /// No variable is asked for.
 constexpr const char* kNoName = "no parameter";
 
+/// `M102 P2 Q3.5, M68 E0 Q2.5`; of an older gateway without words.
+std::string functions_text(const client::ControlValues& values) {
+  std::string text;
+  const auto add = [&text](const std::string& one) { text += (text.empty() ? "" : ", ") + one; };
+  for (const auto& function : values.functions) add(function);
+  if (values.functions.empty())
+    for (const auto code : values.codes) add(fmt::format("M{}", code));
+  return text;
+}
+
 int show_pins(Context& context, client::Client& client, const std::string& machine) {
   const auto values = client.control_values(machine, kNoName, 0);
   if (const auto status = finished(context, values)) return *status;
-  if (values->outputs.empty() && values->codes.empty())
+  if (values->outputs.empty() && values->analog.empty() && values->codes.empty())
     context.print("No program has switched an output since the gateway began.\n");
   Table table({"AXIS", right("OUTPUT"), "STATE"});
   for (const auto& pin : values->outputs)
     table.add({pin.axis, std::to_string(pin.output), pin.on ? "on" : "off"});
   if (!values->outputs.empty()) context.print(table);
-  std::string codes;
-  for (const auto code : values->codes) codes += fmt::format(" M{}", code);
+  Table analog({right("ANALOG OUTPUT"), right("VALUE")});
+  for (const auto& one : values->analog)
+    analog.add({std::to_string(one.output), control_value_text(one.value)});
+  if (!analog.empty()) context.print(analog);
+  const std::string codes = functions_text(*values);
   if (!codes.empty())
-    context.print(fmt::format("M functions handed to the machine, the last one first:{}\n", codes));
+    context.print(
+        fmt::format("M functions handed to the machine, the last one first: {}\n", codes));
   Table inputs({"INPUT", "STATE"});
   for (const auto& input : values->inputs) inputs.add({input.name, input.on ? "on" : "off"});
   if (!inputs.empty()) context.print(inputs);
@@ -90,11 +104,13 @@ void add_value_verbs(Command group, Context& context) {
 
   auto machine = std::make_shared<std::string>();
   auto pins = group.add_subcommand(
-      "pins", "Show the outputs that programs have switched, the last M functions, and the inputs");
+      "pins",
+      "Show the outputs that programs have switched or set, the last M functions, and the inputs");
   pins.add_option("MACHINE", *machine, "The machine").required();
   add_json_flag(pins, context);
   pins.footer(
-      "Outputs and M functions are those of the executed blocks since the gateway began. Inputs "
+      "Outputs and M functions, with the words that the control hands on (M68 E0 Q2.5, M102 P2 "
+      "Q3.5), are those of the executed blocks since the gateway began. Inputs "
       "are "
       "those that the\nmachine reports at this moment: of a LinuxCNC by number, of a board by "
       "letter "

@@ -292,13 +292,18 @@ void members(V& v, Is<ControlOutput> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<ControlAnalogOutput> auto& x) {
+  DRIPLINE_MEMBERS(output, value);
+}
+
+template <class V>
 void members(V& v, Is<ControlInput> auto& x) {
   DRIPLINE_MEMBERS(name, on);
 }
 
 template <class V>
 void members(V& v, Is<ControlValues> auto& x) {
-  DRIPLINE_MEMBERS(machine, values, next, outputs, codes, inputs);
+  DRIPLINE_MEMBERS(machine, values, next, outputs, analog, codes, functions, inputs);
 }
 
 template <class V>

@@ -14,10 +14,12 @@ struct ValueQuery {
 };
 
 /// What a query is answered with, as JSON of at most kMaxCommandSetup bytes: {"values": [{"name",
-/// "value"}], "next", "outputs": [{"axis", "output", "on"}], "codes", "inputs": [{"name", "on"}]}.
-/// `value` is null for a vacant one, `next` is how many to pass over for the rest, or null;
-/// `outputs` are those that programs have switched, `codes` the M functions handed to the machine,
-/// the last one first. `inputs` are those that the machine reports at this moment.
+/// "value"}], "next", "outputs": [{"axis", "output", "on"}], "analog": [{"output", "value"}],
+/// "codes", "functions", "inputs": [{"name", "on"}]}. `value` is null for a vacant one, `next` is
+/// how many to pass over for the rest, or null; `outputs` are those that programs have switched,
+/// `analog` those that M67 and M68 have set, `codes` the M functions handed to the machine, the
+/// last one first, and `functions` the same with their words. `inputs` are those that the machine
+/// reports at this moment.
 std::string control_values(const ValueQuery& query, const ControlMemory& memory,
                            const ExecutionRecorder& recorder,
                            const machine::MotionBackend& machine);

@@ -177,8 +177,8 @@ Result<nlohmann::json> values_json(const std::string& machine, const std::string
                        has("codes", &nlohmann::json::is_array) && values.contains("next");
   if (!is_good)
     return fail(Errc::Corrupt, "machine {}: its gateway's answer has no values", machine);
-  if (!has("inputs", &nlohmann::json::is_array))
-    values["inputs"] = nlohmann::json::array();  // older
+  for (const char* later : {"inputs", "analog", "functions"})  // older gateways have none
+    if (!has(later, &nlohmann::json::is_array)) values[later] = nlohmann::json::array();
   values["machine"] = machine;
   return values;
 }

@@ -9,12 +9,15 @@ import { usedValues } from './screen';
 
 const kIntervalMs = 2000;
 
+/// With the words that the control hands on; of an older gateway without.
+const functionTexts = (values: Values) => (values.functions.length > 0 ? values.functions : values.codes.map((code) => `M${code}`));
+
 function Outputs({ values }: { values: Values }) {
   const t = texts().machine;
   return (
     <p>
-      {t.outputs}: {values.outputs.length === 0 ? t.noOutputs : values.outputs.map((pin) => t.output(pin.axis, pin.output, pin.on)).join(', ')}
-      {values.codes.length > 0 && <>. {t.lastCodes}: {values.codes.map((code) => `M${code}`).join(' ')}</>}
+      {t.outputs}: {values.outputs.length + values.analog.length === 0 ? t.noOutputs : values.outputs.map((pin) => t.output(pin.axis, pin.output, pin.on)).concat(values.analog.map((one) => `${t.analogOutput} ${one.output} = ${one.value}`)).join(', ')}
+      {values.codes.length > 0 && <>. {t.lastCodes}: {functionTexts(values).join(', ')}</>}
     </p>
   );
 }

@@ -101,6 +101,7 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<ControlValues>(), described("Values"));
   EXPECT_EQ(read_by_the_client<ControlValue>(), described("Values/properties/values/items"));
   EXPECT_EQ(read_by_the_client<ControlOutput>(), described("Values/properties/outputs/items"));
+  EXPECT_EQ(read_by_the_client<ControlAnalogOutput>(), described("Values/properties/analog/items"));
   EXPECT_EQ(read_by_the_client<ControlInput>(), described("Values/properties/inputs/items"));
   EXPECT_EQ(read_by_the_client<MemoryCell>(), described("Memory/properties/cells/items"));
   EXPECT_EQ(read_by_the_client<Report>(), described("Report"));

@@ -48,6 +48,30 @@ TEST_F(ControlValues, AreThoseOfTheExecutedBlocksWhileAProgramRuns) {
   EXPECT_EQ(answer["outputs"], json::parse(R"([{"axis":"X","output":3,"on":true}])"));
 }
 
+// M62 to M68 and M100 to M199 with their words, as the blocks that are executed have handed them
+// on.
+TEST(LiveControlValues, OfLinuxCncAreItsOutputsAndItsFunctionsWithTheirWords) {
+  auto setup = interpreter::parse_setup("[control]\nprofile = \"linuxcnc\"");
+  GatewayFixture fixture(interpreter::kRs274NgcDialect, *setup, "1x");
+  fixture.push("O1",
+               "G21 M64 P3\nM62 P4\nG0 X1\nM65 P3\nM68 E1 Q2.5\nM67 E0 Q-0.25\nG0 X2\n"
+               "M102 P2 Q3.5\nM199\nM0\nM103 P9\nM68 E1 Q9\nM2\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  ASSERT_TRUE(fixture.run_until([&] {
+    return fixture.status && fixture.status->execution == dds::Execution::ProgramStopped;
+  })) << fixture.status->message;
+  dds::Command query = fixture.command(dds::CommandAction::Query);
+  const json answer = json::parse(fixture.send(query).values);
+  EXPECT_EQ(answer["outputs"], json::parse(R"([{"axis":"X","output":3,"on":false},)"
+                                           R"({"axis":"X","output":4,"on":true}])"));
+  EXPECT_EQ(answer["analog"],
+            json::parse(R"([{"output":0,"value":-0.25},{"output":1,"value":2.5}])"))
+      << "of blocks after the stop nothing";
+  EXPECT_EQ(answer["functions"],
+            json::parse(R"(["M199","M102 P2 Q3.5","M67 E0 Q-0.25","M68 E1 Q2.5"])"));
+  EXPECT_EQ(answer["codes"], json::parse("[199,102,67,68]"));
+}
+
 // A TNC forgets its Q parameters, and shows them while a program runs.
 TEST(LiveControlValues, OfATncAreItsQParameters) {
   GatewayFixture fixture(interpreter::kTnc155Dialect, {}, "1x");

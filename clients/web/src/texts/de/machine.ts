@@ -122,6 +122,7 @@ export const machine: typeof Shape = {
     outputs: 'Ausgänge',
     noOutputs: 'kein Programm hat einen geschaltet',
     output: (axis, output, isOn) => `${axis} ${output} ${isOn ? 'ein' : 'aus'}`,
+    analogOutput: 'Analogausgang',
     lastCodes: 'Letzte M-Funktionen',
     inputs: 'Eingänge',
     input: (name, isOn) => `${name} ${isOn ? 'ein' : 'aus'}`,

@@ -120,6 +120,7 @@ export const machine = {
     outputs: 'Outputs',
     noOutputs: 'no program has switched one',
     output: (axis: string, output: number, isOn: boolean) => `${axis} ${output} ${isOn ? 'on' : 'off'}`,
+    analogOutput: 'analog output',
     lastCodes: 'Last M functions',
     inputs: 'Inputs',
     input: (name: string, isOn: boolean) => `${name} ${isOn ? 'on' : 'off'}`,
