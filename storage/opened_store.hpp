@@ -23,8 +23,9 @@ struct ServerFacts {
 
 /// A server that waits to take over the store.
 struct WaitingServer {
-  std::string described;                 ///< "dncd 812 on srv-2, /var/lib/dripline"
-  std::chrono::milliseconds silence{0};  ///< since it was seen
+  std::string described;  ///< "dncd 812 on srv-2, /var/lib/dripline"
+  UtcTime seen{};         ///< by the database's clock, which may be set: another with each look
+  bool operator==(const WaitingServer&) const = default;
 };
 
 /// A store with what its owner asks besides, whatever engine keeps it.

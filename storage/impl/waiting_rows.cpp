@@ -8,12 +8,12 @@ Result<std::vector<WaitingServer>> waiting_servers(sql::Database& database,
                                                    const std::string& except) {
   return sql::all_rows(
       database,
-      "SELECT described, CAST(extract(epoch FROM clock_timestamp() - seen) * 1000 AS bigint) FROM "
-      "store_standby WHERE holder <> ?1 AND seen > clock_timestamp() - interval '5 seconds' "
-      "ORDER BY described LIMIT 16",
+      "SELECT described, CAST(extract(epoch FROM seen) * 1000000 AS bigint) FROM store_standby "
+      "WHERE holder <> ?1 AND seen BETWEEN clock_timestamp() - interval '5 seconds' AND "
+      "clock_timestamp() + interval '5 seconds' ORDER BY described LIMIT 16",
       [](const sql::Statement& row) {
         return WaitingServer{.described = row.text(0),
-                             .silence = std::chrono::milliseconds(row.integer(1))};
+                             .seen = UtcTime(std::chrono::microseconds(row.integer(1)))};
       },
       except);
 }

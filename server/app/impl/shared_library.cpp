@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <thread>
 
 #include "protocol/process/log.hpp"
@@ -11,25 +12,26 @@ namespace {
 constexpr std::chrono::seconds kForAnswer{3};
 constexpr std::chrono::milliseconds kPause{50};
 
-/// Of those that wait: the ones that have been seen since it was called. One that has just died is
-/// still listed, and would be handed a library that no server has then.
+/// Of those that wait: the ones that have looked since it was called, whatever the clocks are. One
+/// that has just died is still listed, and would be handed a library that no server has then.
 Result<std::vector<std::string>> awake_standbys(storage::OpenedStore& store) {
   using Clock = std::chrono::steady_clock;
-  for (const auto begun = Clock::now();;) {
-    // Before the database is asked: an answer that takes long is of the moment when it was asked.
-    const auto waited = Clock::now() - begun;
+  const auto begun = Clock::now();
+  const auto before = store.waiting();
+  if (!before) return fail(before.error());
+  for (;;) {
     const auto waiting = store.waiting();
     if (!waiting) return fail(waiting.error());
     std::vector<std::string> awake;
     for (const auto& server : *waiting)
-      if (server.silence < waited) awake.push_back(server.described);
+      if (std::ranges::find(*before, server) == before->end()) awake.push_back(server.described);
     if (!awake.empty()) return awake;
     if (waiting->empty()) {
       return fail(Errc::Conflict,
                   "no server waits for this database: start a second one with standby = yes, or "
                   "end this one");
     }
-    if (waited >= kForAnswer) {
+    if (Clock::now() - begun >= kForAnswer) {
       return fail(Errc::Conflict,
                   "{} waits for this database, but has not looked at it for {} s: nothing is "
                   "handed over. See whether it runs, and whether it reaches the database",
