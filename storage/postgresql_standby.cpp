@@ -28,11 +28,14 @@ struct PostgresqlStandby::Connection {
   std::optional<SteadyClock::time_point> locked_since{};  ///< the place, which is lapsed
   std::optional<SteadyClock::time_point> named{};         ///< who has locked it
   std::string obstacle{};
+  postgresql::FrozenWriters frozen;
+  bool has_tables = false;
   bool has_place = false;     ///< its schema has terms, and servers that wait
   bool has_settings = false;  ///< its schema has settings of the holder
 };
 
-PostgresqlStandby::PostgresqlStandby(Options options) : options_(std::move(options)) {}
+PostgresqlStandby::PostgresqlStandby(Options options)
+    : options_(std::move(options)), watch_(options_.lease) {}
 
 PostgresqlStandby::~PostgresqlStandby() {
   if (connection_ && connection_->has_place && connection_->database.is_alive())
@@ -47,59 +50,69 @@ Result<void> PostgresqlStandby::connect() {
   if (auto ours = postgresql::check_name(facts->database); !ours) return ours;
   auto database = postgresql::Database::connect({.url = options_.url});
   if (!database) return fail(database.error());
-  connection_.reset(new Connection{*std::move(database), SteadyClock::now()});
+  connection_.reset(new Connection{.database = *std::move(database),
+                                   .since = SteadyClock::now(),
+                                   .frozen = postgresql::FrozenWriters(options_.lease)});
+  watch_.restart();
+  return {};
+}
+
+/// Until its schema has the place, as of a server that has migrated it.
+Result<void> PostgresqlStandby::read_schema() {
+  auto& database = connection_->database;
+  if (connection_->has_place) return {};
+  const auto has_tables = postgresql::has_table(database, "store_holder");
+  if (!has_tables) return fail(has_tables.error());
+  connection_->has_tables = *has_tables;
+  if (!*has_tables) return {};
+  const auto version = database.integer("SELECT version FROM schema_version");
+  if (!version) return fail(version.error());
+  const auto newest = static_cast<std::int64_t>(postgresql::schema().size());
+  if (*version > newest) {
+    return fail(Errc::Unsupported,
+                "database {} has schema version {}, this program knows versions up to {}: use a "
+                "newer program",
+                database.label(), *version, newest);
+  }
+  const auto has_terms = postgresql::has_column(database, "store_holder", "signing_key");
+  if (!has_terms) return fail(has_terms.error());
+  const auto has_settings = postgresql::has_column(database, "store_holder", "settings");
+  if (!has_settings) return fail(has_settings.error());
+  connection_->has_place = *has_terms;
+  connection_->has_settings = *has_settings;
   return {};
 }
 
 Result<PostgresqlStandby::View> PostgresqlStandby::read() {
   auto& database = connection_->database;
-  if (!connection_->has_place) {
-    const auto has_tables = postgresql::has_table(database, "store_holder");
-    if (!has_tables) return fail(has_tables.error());
-    if (!*has_tables) {
-      View view;
-      view.is_free = true;
-      view.has_tables = false;
-      return view;
-    }
-    const auto version = database.integer("SELECT version FROM schema_version");
-    if (!version) return fail(version.error());
-    const auto newest = static_cast<std::int64_t>(postgresql::schema().size());
-    if (*version > newest) {
-      return fail(Errc::Unsupported,
-                  "database {} has schema version {}, this program knows versions up to {}: use a "
-                  "newer program",
-                  database.label(), *version, newest);
-    }
-    const auto has_terms = postgresql::has_column(database, "store_holder", "signing_key");
-    if (!has_terms) return fail(has_terms.error());
-    const auto has_settings = postgresql::has_column(database, "store_holder", "settings");
-    if (!has_settings) return fail(has_settings.error());
-    connection_->has_place = *has_terms;
-    connection_->has_settings = *has_settings;
-  }
+  if (auto read = read_schema(); !read) return fail(read.error());
   View view;
-  const auto settled = SteadyClock::now() - connection_->since >= kSettle;
-  const std::string facts = connection_->has_place ? "url, signing_key, term" : "'', '', 0";
+  if (!connection_->has_tables) {
+    view.is_free = true;
+    view.has_tables = false;
+    return view;
+  }
+  LeaseWatch::Look look;
+  const std::string facts =
+      connection_->has_place ? "url, signing_key, term" : "'', '', CAST(0 AS bigint)";
   const std::string settings = connection_->has_settings ? "settings" : "''";
+  look.asked = SteadyClock::now();
   const auto row = sql::first_row(
       database,
-      fmt::format("SELECT holder IN ('', ?1), until <= clock_timestamp(), described, {}, "
-                  "holder = ?1, {}, {} FROM store_holder WHERE id = 1",
+      fmt::format("SELECT holder, CAST(extract(epoch FROM until) * 1000000 AS bigint), described, "
+                  "{}, {}, {} FROM store_holder WHERE id = 1",
                   facts, settings, postgresql::kClockMicroseconds),
       [&](const sql::Statement& found) {
-        view.is_lapsed = found.integer(0) == 0 && found.integer(1) != 0;
-        view.is_free = found.integer(0) != 0 || (view.is_lapsed && settled);
         view.described = found.text(2);
         view.url = found.text(3);
         view.signing_key = found.text(4);
         view.term = static_cast<std::uint64_t>(found.integer(5));
-        view.is_own = found.integer(6) != 0;
-        view.settings = found.text(7);
-        view.time = UtcTime(std::chrono::microseconds(found.integer(8)));
+        view.settings = found.text(6);
+        view.time = UtcTime(std::chrono::microseconds(found.integer(7)));
+        view.lease = {found.text(0), view.term, found.integer(1)};
         return true;
-      },
-      options_.holder);
+      });
+  look.answered = SteadyClock::now();
   if (!row) return fail(row.error());
   if (!*row) {
     return fail(Errc::Corrupt,
@@ -107,6 +120,14 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
                 "have it until there is one again (deploy/docs/operations.md)",
                 database.label());
   }
+  look.row = view.lease;
+  look.left = std::chrono::duration_cast<std::chrono::milliseconds>(
+      std::chrono::microseconds(view.lease.until) - view.time.time_since_epoch());
+  const bool is_over = watch_.is_over(look);
+  const bool is_settled = look.asked - connection_->since >= kSettle;
+  view.is_own = view.lease.holder == options_.holder;
+  view.is_lapsed = is_over && !view.is_own && !view.lease.holder.empty();
+  view.is_free = view.is_own || view.lease.holder.empty() || (view.is_lapsed && is_settled);
   if (auto looked = look_at_lock(view); !looked) return fail(looked.error());
   auto identity = database.text("SELECT id FROM identity");
   if (!identity) return fail(identity.error());
@@ -147,7 +168,7 @@ Result<void> PostgresqlStandby::look_at_lock(View& view) {
     named = now;
   }
   if (named) view.obstacle = connection_->obstacle;
-  return postgresql::end_frozen_writers(database, options_.lease);
+  return connection_->frozen.end(database);
 }
 
 /// That this server waits, each second; or that it does not, once.

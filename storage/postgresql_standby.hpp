@@ -8,6 +8,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
+#include "storage/lease_watch.hpp"
 
 namespace dripline::storage {
 
@@ -38,11 +39,13 @@ class PostgresqlStandby {
     std::string settings;     ///< likewise (ServerFacts); empty: an older version
     std::uint64_t term = 0;   ///< of the last holder
     bool has_others = false;  ///< other servers wait too
+    LeaseRow lease;           ///< for PostgresqlStoreOptions::ended, where it is lapsed
     std::string obstacle;     ///< of a lapsed place: who has locked it, for a lease or more
     std::string identity;     ///< of the database; empty: it has none
     UtcTime time{};           ///< by the database's clock; only where it has tables
   };
-  /// Connects when it is not connected. A lease that is over counts only after `kSettle` of a
+  /// Connects when it is not connected. A lease is over by the own steady clock (LeaseWatch), so
+  /// only when it was looked at again and again for its whole time, and after `kSettle` of a
   /// connection: after an outage of the database its holder comes first. Nor is the place free
   /// while a transaction that writes has its row locked: its server may be alive, on a line that is
   /// slow. One that was frozen in it is disconnected (postgresql/lock_holders.hpp). Errors: Io,
@@ -65,6 +68,7 @@ class PostgresqlStandby {
  private:
   struct Connection;
   Result<void> connect();
+  Result<void> read_schema();
   Result<View> read();
   Result<void> note();
   Result<void> look_at_lock(View& view);
@@ -72,6 +76,7 @@ class PostgresqlStandby {
   const Options options_;
   bool is_able_ = true;
   std::string note_;
+  LeaseWatch watch_;
   std::unique_ptr<Connection> connection_;  ///< null: not connected
 };
 

@@ -11,6 +11,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "storage/content_cache.hpp"
+#include "storage/lease_watch.hpp"
 #include "storage/opened_store.hpp"
 
 namespace dripline::storage {
@@ -19,11 +20,14 @@ struct PostgresqlStoreOptions {
   std::string url;          ///< postgresql://...; the database must exist
   std::string holder{};     ///< what only one process at a time calls itself; empty: a random name
   std::string described{};  ///< which server this is, for anyone who is refused
-  /// Another server may have the place when it was not renewed for so long, by the database's
-  /// clock.
+  /// Another server may have the place when it was not renewed for so long, and a tenth longer, by
+  /// that server's steady clock.
   std::chrono::milliseconds lease{3000};
   std::chrono::milliseconds wait_for_holder{12000};  ///< that another one's place ends, then Busy
-  std::size_t readers = 4;                           ///< connections that read at the same time
+  /// Of a server that was seen not to renew it (PostgresqlStandby): its place is taken at once,
+  /// where the row is the same still.
+  std::optional<LeaseRow> ended{};
+  std::size_t readers = 4;              ///< connections that read at the same time
   std::uint64_t cache_bytes = 8 << 20;  ///< of program chunks kept checked and decompressed
   /// Program text nearer than the database; null: none. It must outlive the store.
   ContentCache* content_cache = nullptr;

@@ -129,8 +129,9 @@ struct Turn {
   int late = 0;                   ///< how often another server was quicker, in a row
   std::string late_because = {};  ///< of the last time
   SteadyTime late_since{};        ///< that time
-  bool is_first = true;           ///< the process has just been started
-  bool is_over = false;           ///< the process ends
+  std::optional<storage::LeaseRow> ended = {};  ///< of the server that is taken over from
+  bool is_first = true;                         ///< the process has just been started
+  bool is_over = false;                         ///< the process ends
 };
 
 /// Until the place is free, which is true at once where no server has it. False: a signal ended it.
@@ -146,6 +147,7 @@ Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
     if (auto free = standby.check_ports(); !free) return fail(free.error());
   }
   auto is_due = standby.look();
+  turn.ended = standby.ended();
   if (is_due && *is_due) process::log_info("{}", standby.takeover());
   if (!is_due || *is_due) return is_due;
   if (auto listens = standby.listen(); !listens) return fail(listens.error());
@@ -163,6 +165,7 @@ Result<bool> stand_by(Turn& turn, const sigset_t& signals, const Clock& clock) {
     is_due = standby.look();
     if (!is_due) return is_due;
     if (!*is_due) continue;
+    turn.ended = standby.ended();
     process::log_info("{}", standby.takeover());
     return true;
   }
@@ -185,9 +188,10 @@ int take_turn(Turn& turn, const sigset_t& signals, const Clock& clock) {
     if (!*is_due) return 0;
   }
   EndReason end;
-  auto server = Server::start(
-      turn.settings, clock, [&end](const Error& error) { end.note_lost(error); },
-      [&end] { end.note_handed_over(); });
+  auto server = Server::start(turn.settings, clock,
+                              {.ended = std::exchange(turn.ended, std::nullopt),
+                               .on_lost = [&end](const Error& error) { end.note_lost(error); }},
+                              [&end] { end.note_handed_over(); });
   if (!server) {
     // Of several that wait one is the first; or the present one was busy, and is there again. It
     // waits on, however often that is: without it there is no standby.

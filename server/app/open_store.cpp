@@ -67,7 +67,7 @@ std::chrono::milliseconds wait_for_holder(const Settings& settings) {
 }
 
 Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& settings,
-                                  const Clock& clock, OnLost on_lost) {
+                                  const Clock& clock, PlaceUse place) {
   if (auto can = check_postgresql(folder, settings); !can) return fail(can.error());
   auto lock = folder.lock();
   if (!lock) return fail(lock.error());
@@ -79,8 +79,9 @@ Result<KeptStore> open_postgresql(const StateFolder& folder, const Settings& set
                                                .described = description(folder),
                                                .lease = std::chrono::seconds(settings.takeover_s),
                                                .wait_for_holder = wait_for_holder(settings),
+                                               .ended = std::move(place.ended),
                                                .content_cache = cache.get(),
-                                               .on_lost = std::move(on_lost)},
+                                               .on_lost = std::move(place.on_lost)},
                                               clock);
   if (!store) return fail(unfinished(folder, store.error()));
   if (auto own = check_trail(folder, **store); !own) return fail(own.error());
@@ -166,9 +167,9 @@ Result<void> check_postgresql(const StateFolder& folder, const Settings& setting
 }
 
 Result<KeptStore> open_store(const StateFolder& folder, const Settings& settings,
-                             const Clock& clock, OnLost on_lost) {
+                             const Clock& clock, PlaceUse place) {
   auto kept = settings.store.empty() ? open_sqlite(folder, settings, clock)
-                                     : open_postgresql(folder, settings, clock, std::move(on_lost));
+                                     : open_postgresql(folder, settings, clock, std::move(place));
   if (!kept) return kept;
   auto identity = kept->store->identity();
   if (!identity) return fail(identity.error());

@@ -11,6 +11,7 @@
 #include "server/app/settings.hpp"
 #include "server/app/state_folder.hpp"
 #include "storage/cache/disk_cache.hpp"
+#include "storage/lease_watch.hpp"
 #include "storage/opened_store.hpp"
 
 namespace dripline::app {
@@ -25,12 +26,18 @@ struct KeptStore {
 /// The store is another server's now, for good: called once, from any thread, and returns soon.
 using OnLost = std::function<void(const Error&)>;
 
+/// Of a store that servers share.
+struct PlaceUse {
+  std::optional<storage::LeaseRow> ended{};  ///< as of PostgresqlStoreOptions
+  OnLost on_lost{};
+};
+
 /// Opens what `settings.store` names, the folder's SQLite file by default, and remembers in the
 /// folder which database it is. `clock` must outlive the store. Errors: those of the store;
 /// Unsupported (another URL than postgresql://, or a folder of backups with PostgreSQL), Corrupt
 /// (not the database that this folder has had), Busy (another server uses it).
 Result<KeptStore> open_store(const StateFolder& folder, const Settings& settings,
-                             const Clock& clock, OnLost on_lost = {});
+                             const Clock& clock, PlaceUse place = {});
 
 /// "dncd 812 on srv-1, /var/lib/dripline": who uses a database, for anyone who is refused.
 std::string description(const StateFolder& folder);

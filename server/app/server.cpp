@@ -80,7 +80,7 @@ Result<void> Server::end() {
 }
 
 Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock,
-                                              OnLost on_lost,
+                                              PlaceUse place,
                                               std::function<void()> on_handed_over) {
   const auto options = http_options(settings);
   if (!options) return fail(options.error());
@@ -100,7 +100,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
     if (!std::filesystem::is_directory(settings.archives, ec))
       return fail(Errc::Io, "archives: {} is no folder and cannot be made", settings.archives);
   }
-  auto kept = open_store(*folder, settings, clock, std::move(on_lost));
+  auto kept = open_store(*folder, settings, clock, std::move(place));
   if (!kept) return fail(kept.error());
   const std::string identity = kept->identity;
   const auto is_checked = kept->store->check(kCheckBeforeStart);

@@ -18,12 +18,12 @@ struct ServerParts;
 class Server {
  public:
   /// Listens and takes part in DDS when it returns. Errors: Denied (unsafe settings), Io, Busy
-  /// (another server uses the folder or the database), Corrupt, Unsupported. `on_lost`: the
-  /// database is another server's now, and this one can only end.
+  /// (another server uses the folder or the database), Corrupt, Unsupported. `place.on_lost`:
+  /// the database is another server's now, and this one can only end.
   /// `on_handed_over`: a person has asked for a hand-over to a server that waits, which this one's
   /// end is; from any thread, and returns soon.
   static Result<std::unique_ptr<Server>> start(const Settings& settings, const Clock& clock,
-                                               OnLost on_lost = {},
+                                               PlaceUse place = {},
                                                std::function<void()> on_handed_over = {});
   /// In order: accepts nothing, flushes storage, leaves DDS. A library that servers share is not
   /// renewed from then on. Errors: Timeout (a hot folder does not answer: the library was given

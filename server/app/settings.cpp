@@ -158,7 +158,7 @@ constexpr std::array kRows{
         yes_no_value<&Settings::standby>()},
     Row{"takeover-s", "NUMBER", "s", "",
         "With --store: let another server take over when this one has not renewed its place for "
-        "so long",
+        "so long, by the other one's steady clock",
         number_value<2, 60, &Settings::takeover_s>()},
     Row{"http", "HOST:PORT", "", "", "Address of the REST API; port 0 takes a free one",
         text_value<&Settings::http>()},

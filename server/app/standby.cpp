@@ -324,6 +324,11 @@ std::string Standby::status() const {
   return fmt::format("{}: standby for {}{}", url_, name_of(view_), faults_.summary());
 }
 
+std::optional<storage::LeaseRow> Standby::ended() const {
+  const std::lock_guard lock(mutex_);
+  return view_.is_lapsed ? std::optional(view_.lease) : std::nullopt;
+}
+
 std::string Standby::takeover() const {
   const std::lock_guard lock(mutex_);
   if (!view_.has_tables || view_.described.empty())

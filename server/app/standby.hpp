@@ -57,7 +57,9 @@ class Standby {
   const std::string& url() const { return url_; }
   /// One line, for people: who has the database.
   std::string status() const;
-  /// Likewise, after `look` was true: from whom it is taken over, and why.
+  /// After `look` was true: the place of a server whose lease is over; nullopt: it was given back.
+  std::optional<storage::LeaseRow> ended() const;
+  /// For people, likewise: from whom it is taken over, and why.
   std::string takeover() const;
 
   static constexpr std::chrono::milliseconds kLookEvery{150};

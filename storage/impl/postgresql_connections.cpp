@@ -27,7 +27,8 @@ PostgresqlConnections::PostgresqlConnections(const PostgresqlStoreOptions& optio
               .described = options.described,
               .lease = options.lease,
               .wait = options.wait_for_holder,
-              .lock_wait = options.wait}),
+              .lock_wait = options.wait,
+              .ended = options.ended}),
       writer_(options.wait),
       readers_(options.wait) {}
 

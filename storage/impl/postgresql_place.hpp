@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "storage/lease_watch.hpp"
 #include "storage/opened_store.hpp"
 #include "storage/postgresql/database.hpp"
 
@@ -23,9 +24,11 @@ namespace dripline::storage {
 ///   stores no row.
 /// - A renewal changes no key, so it waits for no transaction that writes: the lease of a server
 ///   that stores much over a slow line is renewed meanwhile, on a connection of its own.
-/// - The place is another's only after it was given back, or was not renewed for the holder's lease
-///   by the database's clock, or its holder (of the same name, which has a folder's lock) begins
-///   again. A namesake that still renews is another server, with a copy of the folder: refused.
+/// - The place is another's only after it was given back, or was not renewed for the lease by the
+///   steady clock of the one that takes it (storage/lease_watch.hpp), or its holder (of the same
+///   name, which has a folder's lock) begins again. The statement that takes it compares the row
+///   with the one that was watched: of two that take it one does, and none after a renewal. A
+///   namesake that still renews is another server, with a copy of the folder: refused.
 /// What is not: that a server knows at once that it lost the place. Until it writes or renews (a
 /// quarter of the lease) it may read, and send what it has to machines; gateways refuse that by its
 /// term (protocol/dds).
@@ -38,8 +41,9 @@ class PostgresqlPlace {
     std::chrono::milliseconds lease{3000};
     std::chrono::milliseconds wait{12000};       ///< that another one's lease ends, then Busy
     std::chrono::milliseconds lock_wait{10000};  ///< for a lock, then Busy
+    std::optional<LeaseRow> ended{};  ///< was watched until its lease was over: no wait for it
   };
-  explicit PostgresqlPlace(Owner owner) : owner_(std::move(owner)) {}
+  explicit PostgresqlPlace(Owner owner) : owner_(std::move(owner)), watch_(owner_.lease) {}
 
   /// A writer of ours that was frozen with the row locked is disconnected, once its lease is over.
   /// Errors: Busy (another server has it; another session has locked the row), Conflict (a server
@@ -67,12 +71,25 @@ class PostgresqlPlace {
     std::chrono::steady_clock::time_point since;
     int renewals = 0;  ///< that were seen
   };
-  Result<bool> try_take(postgresql::Database& database, std::string& other);
-  Result<bool> is_gone(std::int64_t until, const std::string& label, const std::string& described);
+  /// The row as it was looked at, without a lock.
+  struct Seen {
+    LeaseWatch::Look look;
+    std::string described;
+    bool is_own = false;     ///< our name
+    bool is_lapsed = false;  ///< by the database's clock
+  };
+  Result<Seen> look(postgresql::Database& database) const;
+  Result<bool> is_free(const Seen& seen, const std::string& label);
+  Result<bool> attempt(postgresql::Database& database, Seen& seen, bool& is_due);
+  Result<bool> try_take(postgresql::Database& database, const LeaseRow& row);
+  Result<bool> is_gone(const Seen& seen, const std::string& label);
+  std::chrono::milliseconds longest_wait() const;
   Result<void> take_within(postgresql::Database& database);
 
   const Owner owner_;
   std::optional<Namesake> namesake_;
+  LeaseWatch watch_;
+  bool has_terms_ = false;  ///< the schema
   bool may_be_ours_ = false;
   std::uint64_t term_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "storage/postgresql/lock_holders.hpp"
 
+#include <utility>
+
 #include "storage/sql/query.hpp"
 
 namespace dripline::storage::postgresql {
@@ -33,25 +35,52 @@ std::string holder_text(const sql::Statement& row) {
 }
 
 /// A statement that takes long is not one: it waits for no client.
-constexpr const char* kEndFrozen =
-    "SELECT CAST(count(pg_terminate_backend(l.pid)) AS bigint) FROM pg_locks AS l "
+constexpr const char* kFrozen =
+    "SELECT CAST(a.pid AS bigint), concat_ws(' ', a.backend_start, a.xact_start, a.query_start, "
+    "a.state_change), greatest(a.state_change, a.query_start) < clock_timestamp() - ?1 * interval "
+    "'1 millisecond' FROM pg_stat_activity AS a WHERE a.pid IN (SELECT l.pid FROM pg_locks AS l "
     "JOIN pg_class AS c ON c.oid = l.relation AND c.relname = 'store_holder' "
     "JOIN pg_namespace AS n ON n.oid = c.relnamespace AND n.nspname = current_schema() "
-    "JOIN pg_stat_activity AS a ON a.pid = l.pid AND a.datname = current_database() "
-    "WHERE l.granted AND l.mode IN ('RowShareLock', 'RowExclusiveLock') "
-    "AND l.pid <> pg_backend_pid() AND a.application_name = 'dncd' "
-    "AND a.usename = current_user AND a.state <> 'idle' AND a.wait_event = 'ClientRead' "
-    "AND greatest(a.state_change, a.query_start) < clock_timestamp() - ?1 * interval '1 "
-    "millisecond' "
-    "AND (SELECT until FROM store_holder WHERE id = 1) <= clock_timestamp()";
+    "WHERE l.granted AND l.mode IN ('RowShareLock', 'RowExclusiveLock')) "
+    "AND a.datname = current_database() AND a.pid <> pg_backend_pid() "
+    "AND a.application_name = 'dncd' AND a.usename = current_user AND a.state <> 'idle' "
+    "AND a.wait_event = 'ClientRead' ORDER BY a.pid LIMIT 64";
+
+constexpr const char* kEnd =
+    "SELECT CAST(count(pg_terminate_backend(a.pid)) AS bigint) FROM pg_stat_activity AS a WHERE "
+    "a.pid = ?1 AND concat_ws(' ', a.backend_start, a.xact_start, a.query_start, a.state_change) = "
+    "?2";
 
 }  // namespace
 
-Result<void> end_frozen_writers(Database& database, std::chrono::milliseconds lease) {
-  const auto ended = sql::first_row(
-      database, kEndFrozen, [](const sql::Statement& row) { return row.integer(0); },
-      lease.count());
-  return ended ? Result<void>() : fail(ended.error());
+Result<void> FrozenWriters::end(Database& database) {
+  struct Session {
+    std::int64_t process;
+    std::string state;
+    bool is_silent;  ///< for the lease, by the database's clock
+  };
+  const auto asked = std::chrono::steady_clock::now();
+  const auto found = sql::all_rows(
+      database, kFrozen,
+      [](const sql::Statement& row) {
+        return Session{row.integer(0), row.text(1), row.integer(2) != 0};
+      },
+      lease_.count());
+  if (!found) return fail(found.error());
+  const auto answered = std::chrono::steady_clock::now();
+  std::map<std::int64_t, Seen> now;
+  for (const auto& [process, state, is_silent] : *found) {
+    const auto known = seen_.find(process);
+    const bool is_same = known != seen_.end() && known->second.state == state;
+    const auto since = is_same ? known->second.since : answered;
+    now.emplace(process, Seen{state, since});
+    if (!is_silent && asked - since < lease_) continue;
+    const auto ended = sql::first_row(
+        database, kEnd, [](const sql::Statement& row) { return row.integer(0); }, process, state);
+    if (!ended) return fail(ended.error());
+  }
+  seen_ = std::move(now);
+  return {};
 }
 
 Error locked_by_others(Database& database, std::chrono::milliseconds waited) {

@@ -109,7 +109,7 @@ TEST_F(WaitingServer, WaitsForAPortThatAnotherProgramHasTakenMeanwhile) {
     auto database = connect();
     return database.integer(
                "SELECT count(*) FROM store_holder WHERE until < now() - interval "
-               "'500 milliseconds'") == 1;
+               "'2 seconds'") == 1;
   }));
   EXPECT_EQ(shop_->role(1), "standby");
   EXPECT_EQ(term(), before);
