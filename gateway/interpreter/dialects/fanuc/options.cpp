@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gateway/interpreter/core/option_rows.hpp"
-#include "gateway/interpreter/dialects/fanuc/tilting/kinematic_options.hpp"
+#include "gateway/interpreter/stages/tilting/kinematic_options.hpp"
 #include "protocol/base/names.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -372,11 +372,11 @@ template <std::size_t kFirst, std::size_t kSecond>
 constexpr auto joined(const std::array<Row, kFirst>& first,
                       const std::array<Row, kSecond>& second) {
   std::array<Row, kFirst + kSecond> rows{};
-  std::copy(first.begin(), first.end(), rows.begin());
-  std::copy(second.begin(), second.end(), rows.begin() + kFirst);
+  std::copy(second.begin(), second.end(), std::copy(first.begin(), first.end(), rows.begin()));
   return rows;
 }
-constexpr auto kMillOptions = joined(joined(kSharedRows, kMillRows), kKinematicRows);
+constexpr auto kMillOptions =
+    joined(joined(kSharedRows, kMillRows), tilting::kinematic_rows<Control>());
 /// code_system decides what start_g means.
 constexpr auto kLatheOptions = joined(kLatheRows, kSharedRows);
 

@@ -7,7 +7,7 @@
 #include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
-#include "gateway/interpreter/dialects/fanuc/tilting/kinematics.hpp"
+#include "gateway/interpreter/stages/tilting/kinematics.hpp"
 
 namespace dripline::interpreter::fanuc {
 
@@ -73,7 +73,7 @@ struct ControlOptions {
   std::array<double, 3> limit_low{};
   std::array<double, 3> limit_high{};
   StrokeZone zone;  ///< limit 2 before any G22
-  Kinematics kinematics;
+  tilting::Kinematics kinematics;
   double dry_run_feed = 0;        ///< `dry_run_feed`, mm per minute; a panel's, not a program's
   std::uint16_t skip_levels = 0;  ///< bit n: switch n is on
   std::vector<std::int64_t> g_macros;

@@ -15,7 +15,7 @@
 #include "gateway/interpreter/dialects/fanuc/reading/block.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
-#include "gateway/interpreter/dialects/fanuc/tilting/tilted_path.hpp"
+#include "gateway/interpreter/dialects/fanuc/tilting/tilt_rules.hpp"
 #include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
@@ -161,7 +161,8 @@ struct Run : BlockRun {
   blending::CornerBlender blender;  ///< in front of it
   TextCursor text;
   ModalState state;
-  TiltedPath tilted{sink, options, state.zone};  ///< never with `rotary`
+  FanucTiltRules tilt_rules{options, state.zone};
+  TiltedPath tilted{sink, tilt_rules};  ///< never with `rotary`
   ContourRecorder recorder{state.contour.moves, sink};
   EventSink* front = &sink;  ///< the first stage that the state has, or the sink
   Memory memory;

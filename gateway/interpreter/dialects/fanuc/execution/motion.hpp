@@ -71,9 +71,6 @@ inline void arrive(Run& run, const Position& to) {
   run.state.limits = {};
 }
 
-/// A point of an arc, by the angle traveled from its start.
-Position point_on_arc(const Arc& arc, const Position& from, double degrees);
-
 /// G27 to G30, by the block's one-shot code: reference points, which are machine coordinates;
 /// coordinates.cpp.
 bool execute_reference(Run& run);

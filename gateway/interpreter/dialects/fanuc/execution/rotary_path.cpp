@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/core/geometry/arc_point.hpp"
 #include "gateway/interpreter/core/path_feed.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 

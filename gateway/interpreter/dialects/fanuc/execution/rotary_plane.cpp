@@ -192,7 +192,8 @@ bool read_rotary_target(Run& run, Position& to) {
 bool check_last_stage(Run& run) {
   if (const auto& fault = run.tilted.fault()) {
     run.origin.line = fault->origin.line;
-    return run.fail(fault->row, 0, fault->text);
+    return run.fail(fault->is_travel ? ErrorCode::OverTravel : ErrorCode::TipControl, 0,
+                    fault->text);
   }
   if (!run.rotary.has_fault()) return true;
   return run.fail(ErrorCode::ImproperCommand, 0,

@@ -1,12 +1,12 @@
-#include "gateway/interpreter/dialects/fanuc/tilting/tilted_path.hpp"
+#include "gateway/interpreter/stages/tilting/tilted_path.hpp"
 
 #include <fmt/core.h>
 
+#include "gateway/interpreter/core/geometry/arc_point.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/core/path_feed.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 
-namespace dripline::interpreter::fanuc {
+namespace dripline::interpreter::tilting {
 namespace {
 
 constexpr int kMaxTiltedPieces = 20'000;  ///< of one move
@@ -60,7 +60,7 @@ void TiltedPath::begin(const Tilt& tilt, const Position& machine) {
 
 Position TiltedPath::on_machine(const Position& flat) const {
   const Tilt& tilt = state_.tilt;
-  const Kinematics& machine = options_.kinematics;
+  const Kinematics& machine = rules_.kinematics();
   const Pose pose = pose_of(machine, flat);
   const Point3 work = tilt.at + tilt.frame * (linear_of(flat) - tilt.flat_zero);
   const Point3 tip = table_motion(machine, pose)(table_motion(machine, tilt.zero).inverse()(work));
@@ -75,7 +75,7 @@ Position TiltedPath::on_machine(const Position& flat) const {
 
 Position TiltedPath::flat_of(const Position& at) const {
   const Tilt& tilt = state_.tilt;
-  const Kinematics& machine = options_.kinematics;
+  const Kinematics& machine = rules_.kinematics();
   const Pose pose = pose_of(machine, at);
   const Point3 tip = linear_of(at) + tip_shift(machine, pose, tilt.length);
   const Point3 work = table_motion(machine, tilt.zero)(table_motion(machine, pose).inverse()(tip));
@@ -85,26 +85,21 @@ Position TiltedPath::flat_of(const Position& at) const {
 }
 
 std::optional<Pose> TiltedPath::pose_for(const Point3& direction) const {
-  const Kinematics& machine = options_.kinematics;
+  const Kinematics& machine = rules_.kinematics();
   return aligned_pose(machine, state_.tilt.zero, state_.tilt.frame * direction,
                       pose_of(machine, state_.machine));
 }
 
-bool TiltedPath::checks_stroke() const {
-  return options_.checks_stroke() || zone_.is_on;
-}
-
 bool TiltedPath::check(const Origin& origin, const Position& from, const Position& to) {
   const Units units = state_.tilt.mm_per_unit == 1 ? Units::Millimeter : Units::Inch;
-  const LengthDisplay display{.units = units, .x_is_diameter = options_.x_is_diameter};
-  std::string text = stroke_fault(options_, zone_, {from, to, display});
+  std::string text = rules_.travel_fault(from, to, units);
   if (text.empty()) return true;
-  fault_ = Fault{ErrorCode::OverTravel, origin, std::move(text)};
+  fault_ = Fault{true, origin, std::move(text)};
   return false;
 }
 
 bool TiltedPath::check_pieces(const Origin& origin, const Position& to, int pieces) {
-  if (!checks_stroke()) return true;
+  if (!rules_.checks_travel()) return true;
   Position last = state_.machine;
   for (int n = 1; n <= pieces; ++n) {
     const double part = static_cast<double>(n) / pieces;
@@ -117,7 +112,7 @@ bool TiltedPath::check_pieces(const Origin& origin, const Position& to, int piec
 
 /// More than kMaxTiltedPieces: too many.
 int TiltedPath::pieces_of(const Position& to) const {
-  const Kinematics& machine = options_.kinematics;
+  const Kinematics& machine = rules_.kinematics();
   const Rigid back = table_motion(machine, state_.tilt.zero).inverse();
   const Tilt& tilt = state_.tilt;
   const auto on_table = [&](const Position& flat) {
@@ -138,7 +133,7 @@ Feed TiltedPath::feed_within(double revolutions, const Position& to) const {
 /// F is the speed of the tip, or of the rotary axes where it rests. Of a feed per revolution these
 /// are revolutions.
 double TiltedPath::minutes_of(const Line& line) const {
-  const Kinematics& machine = options_.kinematics;
+  const Kinematics& machine = rules_.kinematics();
   const double path = length(linear_of(line.to) - linear_of(state_.flat));
   const double speed = line.feed.length().mm();
   if (path > kSamePlace) return path / speed;
@@ -153,15 +148,15 @@ void TiltedPath::deliver_straight(const Event& whole, void (EventSink::*deliver)
   if (fault_) return;
   const int pieces = pieces_of(whole.to);
   if (pieces > kMaxTiltedPieces) {
-    fault_ = Fault{ErrorCode::TipControl, whole.origin,
+    fault_ = Fault{false, whole.origin,
                    fmt::format("the tip's path within {} mm takes more than {} pieces",
-                               options_.kinematics.tip_tolerance, kMaxTiltedPieces)};
+                               rules_.kinematics().tip_tolerance, kMaxTiltedPieces)};
     return;
   }
   if (!check_pieces(whole.origin, whole.to, pieces)) return;
   const Position from = state_.flat;
-  const Pose pose = pose_of(options_.kinematics, from);
-  const Pose end = pose_of(options_.kinematics, whole.to);
+  const Pose pose = pose_of(rules_.kinematics(), from);
+  const Pose end = pose_of(rules_.kinematics(), whole.to);
   const bool rotates =
       std::fabs(end.master - pose.master) > kNoMove || std::fabs(end.slave - pose.slave) > kNoMove;
   Event piece = whole;
@@ -196,9 +191,10 @@ void TiltedPath::turn_to(const Origin& origin, Pose pose, const std::optional<Fe
   const auto set = [&to](const RotaryAxis& rotary, double degrees) {
     if (std::fabs(degrees - to.raw(rotary.axis)) > kNoMove) to.set_raw(rotary.axis, degrees);
   };
-  set(options_.kinematics.master, pose.master);
-  set(options_.kinematics.slave, pose.slave);
-  if (to.same_point(state_.machine) || (checks_stroke() && !check(origin, state_.machine, to)))
+  set(rules_.kinematics().master, pose.master);
+  set(rules_.kinematics().slave, pose.slave);
+  if (to.same_point(state_.machine) ||
+      (rules_.checks_travel() && !check(origin, state_.machine, to)))
     return;
   if (feed) {
     out().on_line({origin, to, feed_of_axes(*feed, to), rests});
@@ -231,7 +227,7 @@ void TiltedPath::deliver_checked(const Event& event, void (EventSink::*deliver)(
   if constexpr (std::is_same_v<Event, Arc>) {
     if (!check_arc(event)) return;
   } else {
-    if (checks_stroke() && !check(event.origin, state_.machine, event.to)) return;
+    if (rules_.checks_travel() && !check(event.origin, state_.machine, event.to)) return;
   }
   (out().*deliver)(event);
   state_.machine = event.to;
@@ -261,7 +257,7 @@ void TiltedPath::on_rapid(const Rapid& event) {
 void TiltedPath::on_line(const Line& event) {
   if (is_on()) return deliver_straight(event, &EventSink::on_line);
   Line line = event;
-  line.feed = feed_of_axes(event.feed, event.to);
+  if (rules_.sets_axis_feeds()) line.feed = feed_of_axes(event.feed, event.to);
   deliver_checked(line, &EventSink::on_line);
 }
 
@@ -271,7 +267,7 @@ void TiltedPath::on_thread(const Thread& event) {
   if (fault_) return;
   Thread thread = event;
   thread.to = on_machine(event.to);
-  if (checks_stroke() && !check(event.origin, state_.machine, thread.to)) return;
+  if (rules_.checks_travel() && !check(event.origin, state_.machine, thread.to)) return;
   out().on_thread(thread);
   state_.machine = thread.to;
   state_.flat = event.to;
@@ -279,7 +275,7 @@ void TiltedPath::on_thread(const Thread& event) {
 
 /// From the axes of the moves that come in to the machine's.
 Matrix3 TiltedPath::turn_now() const {
-  const Kinematics& machine = options_.kinematics;
+  const Kinematics& machine = rules_.kinematics();
   const Pose pose = pose_of(machine, state_.flat);
   return table_motion(machine, pose).turn *
          transposed(table_motion(machine, state_.tilt.zero).turn) * state_.tilt.frame;
@@ -311,7 +307,7 @@ bool TiltedPath::arc_on_machine(const Arc& flat, Arc& arc) const {
 }
 
 bool TiltedPath::check_arc(const Arc& arc) {
-  if (!checks_stroke()) return true;
+  if (!rules_.checks_travel()) return true;
   const int pieces = static_cast<int>(std::ceil(arc.sweep.degrees() / kLongestArcPiece));
   Position last = state_.machine;
   for (int n = 1; n <= pieces; ++n) {
@@ -327,13 +323,13 @@ void TiltedPath::deliver_pieces_of_arc(const Arc& arc) {
   const PlaneAxes axes = axes_of(arc.plane);
   const double radius = std::hypot(from.raw(axes.first) - arc.center_first.mm(),
                                    from.raw(axes.second) - arc.center_second.mm());
-  const int pieces = pieces_of_arc(radius, arc.sweep.degrees(), options_.kinematics.tip_tolerance);
+  const int pieces = pieces_of_arc(radius, arc.sweep.degrees(), rules_.kinematics().tip_tolerance);
   const auto point = [&](int n) {
     return on_machine(n == pieces ? arc.to
                                   : point_on_arc(arc, from, arc.sweep.degrees() * n / pieces));
   };
   Position last = state_.machine;
-  for (int n = 1; checks_stroke() && n <= pieces; ++n) {
+  for (int n = 1; rules_.checks_travel() && n <= pieces; ++n) {
     const Position next = point(n);
     if (!check(arc.origin, last, next)) return;
     last = next;
@@ -352,7 +348,7 @@ void TiltedPath::deliver_pieces_of_arc(const Arc& arc) {
 void TiltedPath::on_arc(const Arc& programmed) {
   Arc event = programmed;
   const Position& from = is_on() ? state_.flat : state_.machine;
-  if (!options_.helix_feed_is_path) event.feed = feed_along_circle(event.feed, event, from);
+  if (!rules_.helix_feed_is_path()) event.feed = feed_along_circle(event.feed, event, from);
   if (!is_on()) return deliver_checked(event, &EventSink::on_arc);
   if (fault_) return;
   // A length that came into force since the last move is compensated before the arc.
@@ -366,4 +362,4 @@ void TiltedPath::on_arc(const Arc& programmed) {
   state_.flat = event.to;
 }
 
-}  // namespace dripline::interpreter::fanuc
+}  // namespace dripline::interpreter::tilting

@@ -1,10 +1,11 @@
-#include "gateway/interpreter/dialects/fanuc/tilting/kinematics.hpp"
+#include "gateway/interpreter/stages/tilting/kinematics.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "gateway/interpreter/core/language/expression.hpp"
 
-namespace dripline::interpreter::fanuc {
+namespace dripline::interpreter::tilting {
 namespace {
 
 Point3 unit(std::size_t axis) {
@@ -116,8 +117,8 @@ Point3 tool_direction(const Kinematics& machine, Pose pose) {
 
 /// Both chains of rotations are one about p of `a` and one about q of `b`, and where these meet is
 /// a direction v: its parts along p and along q are those of a and of b, and its length is 1.
-std::optional<Pose> aligned_pose(const Kinematics& machine, Pose zero, const Point3& normal,
-                                 Pose present) {
+std::vector<AlignedPose> aligned_poses(const Kinematics& machine, Pose zero, const Point3& normal,
+                                       Pose present) {
   const bool is_head_head = machine.type == KinematicType::HeadHead;
   const Point3 wanted = transposed(table_motion(machine, zero).turn) * normal;
   const Point3 spindle{0, 0, 1};
@@ -128,25 +129,31 @@ std::optional<Pose> aligned_pose(const Kinematics& machine, Pose zero, const Poi
   const double along_p = dot(a, p);
   const double along_q = dot(b, q);
   double square = 1 - along_p * along_p - along_q * along_q;
-  if (!(square >= -1e-9)) return std::nullopt;
+  if (!(square >= -1e-9)) return {};
   if (square < 1e-14) square = 0;
-  std::optional<Pose> best;
-  Preference best_preference{};
+  std::vector<AlignedPose> poses;
   for (const double side : {1.0, -1.0}) {
     const Point3 v = along_p * p + along_q * q + side * std::sqrt(square) * cross(p, q);
     std::optional<double> master = angle_about(q, b, v);
     // of two tables or heads the master rotates v in the opposite direction
     if (master && machine.type != KinematicType::HeadTable) master = -*master;
     const auto at_master = reachable(machine.master, master, present.master);
-    const auto at_slave = reachable(machine.slave, angle_about(p, a, v), present.slave);
+    const auto slave = angle_about(p, a, v);
+    const auto at_slave = reachable(machine.slave, slave, present.slave);
     if (!at_master || !at_slave) continue;
-    const Pose pose{*at_master, *at_slave};
-    const Preference preference = preference_of(machine, pose, present);
-    if (best && !is_preferred(preference, best_preference)) continue;
-    best = pose;
-    best_preference = preference;
+    poses.push_back({{*at_master, *at_slave}, !master || !slave});
   }
-  return best;
+  if (poses.size() == 2 && is_preferred(preference_of(machine, poses[1].pose, present),
+                                        preference_of(machine, poses[0].pose, present)))
+    std::swap(poses[0], poses[1]);
+  return poses;
+}
+
+std::optional<Pose> aligned_pose(const Kinematics& machine, Pose zero, const Point3& normal,
+                                 Pose present) {
+  const auto poses = aligned_poses(machine, zero, normal, present);
+  if (poses.empty()) return std::nullopt;
+  return poses.front().pose;
 }
 
 /// Within a piece the axes move straight, so that the tip departs from its chord by no more than an
@@ -168,18 +175,18 @@ double pieces_within(const Kinematics& machine, Pose pose, Pose end, const Point
   }
   if (machine.master.is_table) {
     const Point3& center = machine.slave.center;
-    const double reach = std::max(fanuc::length(from - center), fanuc::length(to - center));
+    const double reach = std::max(tilting::length(from - center), tilting::length(to - center));
     table_radius = std::max(table_radius, reach + distance_from_axis(machine.master, center));
   }
   double head_radius = 0;
   if (!machine.master.is_table)
-    head_radius = fanuc::length(machine.master.center) + std::fabs(length);
-  if (!machine.slave.is_table) head_radius += 2 * fanuc::length(machine.slave.center);
+    head_radius = tilting::length(machine.master.center) + std::fabs(length);
+  if (!machine.slave.is_table) head_radius += 2 * tilting::length(machine.slave.center);
   const double axis_speed =
-      fanuc::length(to - from) + table_turn * table_radius + 2 * head_turn * head_radius;
+      tilting::length(to - from) + table_turn * table_radius + 2 * head_turn * head_radius;
   const double acceleration = table_turn * table_turn * table_radius + 2 * table_turn * axis_speed +
                               head_turn * head_turn * head_radius;
   return std::max(1.0, std::ceil(std::sqrt(acceleration / (8 * machine.tip_tolerance))));
 }
 
-}  // namespace dripline::interpreter::fanuc
+}  // namespace dripline::interpreter::tilting

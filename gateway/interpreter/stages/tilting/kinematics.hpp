@@ -2,13 +2,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
-#include "gateway/interpreter/dialects/fanuc/tilting/rigid.hpp"
+#include "gateway/interpreter/stages/tilting/rigid.hpp"
 
 /// How the rotary axes of a five-axis machine turn its table and its tool. Axis positions are those
 /// of events: machine coordinates without the tool's length, so that with both rotary axes at 0 the
 /// linear axes are at the tip. Pure; any thread.
-namespace dripline::interpreter::fanuc {
+namespace dripline::interpreter::tilting {
 
 struct RotaryAxis {
   static constexpr double kFar = 1e9;
@@ -61,9 +62,17 @@ Point3 tool_direction(const Kinematics& machine, Pose pose);
 std::optional<Pose> aligned_pose(const Kinematics& machine, Pose zero, const Point3& normal,
                                  Pose present);
 
+/// All of them within the limits, the preferred one first: two at most.
+struct AlignedPose {
+  Pose pose;
+  bool is_free = false;  ///< every angle of one axis would do; it stays where it is
+};
+std::vector<AlignedPose> aligned_poses(const Kinematics& machine, Pose zero, const Point3& normal,
+                                       Pose present);
+
 /// How many straight pieces of the axes keep the tip within `tolerance` of its straight path on the
 /// workpiece. `from` and `to` are tips in machine coordinates with the table at 0.
 double pieces_within(const Kinematics& machine, Pose pose, Pose end, const Point3& from,
                      const Point3& to, double length);
 
-}  // namespace dripline::interpreter::fanuc
+}  // namespace dripline::interpreter::tilting

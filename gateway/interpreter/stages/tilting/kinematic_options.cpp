@@ -1,8 +1,8 @@
-#include "gateway/interpreter/dialects/fanuc/tilting/kinematic_options.hpp"
+#include "gateway/interpreter/stages/tilting/kinematic_options.hpp"
 
 #include <cmath>
 
-namespace dripline::interpreter::fanuc {
+namespace dripline::interpreter::tilting {
 namespace {
 
 constexpr std::string_view kMaster = "rotary_master", kSlave = "rotary_slave",
@@ -11,15 +11,15 @@ constexpr std::string_view kMaster = "rotary_master", kSlave = "rotary_slave",
                            kFrame = "table_frame";
 
 const OptionKey& key_of(std::string_view name) {
-  for (const auto& row : kKinematicRows) {
+  for (const OptionKey& row : kKinematicKeys) {
     if (row.key == name) return row;
   }
-  return kKinematicRows.front();
+  return kKinematicKeys.front();
 }
 
 Result<void> refuse_keys_without(const Options& options) {
-  for (const auto& row : kKinematicRows) {
-    if (row.key == kKinematicRows.front().key || options.find(row.key) == nullptr) continue;
+  for (const OptionKey& row : kKinematicKeys) {
+    if (row.key == kKinematicKeys.front().key || options.find(row.key) == nullptr) continue;
     return fail(Errc::Syntax, "[control] {}: it needs kinematics, which is none", row.key);
   }
   return {};
@@ -124,9 +124,7 @@ Result<void> read_others(const Options& options, Kinematics& machine) {
 
 }  // namespace
 
-Result<void> read_kinematics(const Options& options, const OptionKey& key,
-                             ControlOptions& control) {
-  Kinematics& machine = control.kinematics;
+Result<void> read_kinematics(const Options& options, const OptionKey& key, Kinematics& machine) {
   if (auto done = read_value(options, key, machine.type); !done) return done;
   if (!machine.exists()) return refuse_keys_without(options);
   machine.master.is_table = machine.type == KinematicType::TableTable;
@@ -139,4 +137,4 @@ Result<void> read_kinematics(const Options& options, const OptionKey& key,
   return read_others(options, machine);
 }
 
-}  // namespace dripline::interpreter::fanuc
+}  // namespace dripline::interpreter::tilting

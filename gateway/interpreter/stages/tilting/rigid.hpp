@@ -8,7 +8,7 @@
 #include "gateway/interpreter/core/event.hpp"
 
 /// Points, directions and rotations of space. Right-handed; angles in degrees.
-namespace dripline::interpreter::fanuc {
+namespace dripline::interpreter::tilting {
 
 /// X, Y, Z.
 using Point3 = std::array<double, 3>;
@@ -78,4 +78,4 @@ inline Point3 linear_of(const Position& at) {
   return {at.raw(Axis::X), at.raw(Axis::Y), at.raw(Axis::Z)};
 }
 
-}  // namespace dripline::interpreter::fanuc
+}  // namespace dripline::interpreter::tilting

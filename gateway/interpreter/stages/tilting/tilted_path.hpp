@@ -3,23 +3,42 @@
 #include <optional>
 #include <string>
 
-#include "gateway/interpreter/dialects/fanuc/tilting/kinematics.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
+#include "gateway/interpreter/stages/tilting/kinematics.hpp"
 
-/// G68.2, G43.4 and G43.5: the last stage before the sink. Moves of the tip as the program has it
-/// come in, moves of the machine's axes go out. Without them it only checks the strokes of a path
-/// that cutter compensation has made.
-namespace dripline::interpreter::fanuc {
+/// Tilted working planes and tool center point control: the last stage before the sink. Moves of
+/// the tip as the program has it come in, moves of the machine's axes go out. Without them it only
+/// checks the travel of a path that cutter compensation has made.
+namespace dripline::interpreter::tilting {
 
-struct ControlOptions;
-struct StrokeZone;
+/// What the control decides. It must outlive the stage.
+class TiltRules {
+ public:
+  TiltRules() = default;
+  TiltRules(const TiltRules&) = delete;
+  TiltRules& operator=(const TiltRules&) = delete;
+  virtual ~TiltRules() = default;
+
+  virtual const Kinematics& kinematics() const = 0;
+  /// The feeds of moves that come in are those of the linear axes' path, a helix without its
+  /// height: here they become what the machine's axes need. False: they are that already.
+  virtual bool sets_axis_feeds() const { return false; }
+  virtual bool helix_feed_is_path() const { return true; }
+  /// Whether `travel_fault` may find something.
+  virtual bool checks_travel() const { return false; }
+  /// What forbids the straight path of the machine's axes; empty: nothing.
+  virtual std::string travel_fault(const Position& /*from*/, const Position& /*to*/,
+                                   Units /*units*/) const {
+    return {};
+  }
+};
 
 /// Where the programmed points are on the machine.
 struct Tilt {
   enum class Kind : std::uint8_t {
     None,
-    Plane,      ///< G68.2: coordinates of a plane of the workpiece; the rotary axes rest
-    TipControl  ///< G43.4, G43.5: coordinates of the workpiece, where the tip moves straight
+    Plane,      ///< coordinates of a plane of the workpiece; the rotary axes rest
+    TipControl  ///< coordinates of the workpiece, where the tip moves straight
   };
   Kind kind = Kind::None;
   Matrix3 frame{};         ///< the axes of the program, in machine coordinates at `zero`
@@ -32,8 +51,7 @@ struct Tilt {
 
 class TiltedPath final : public EventFilter {
  public:
-  TiltedPath(EventSink& out, const ControlOptions& options, const StrokeZone& zone)
-      : EventFilter(out), options_(options), zone_(zone) {}
+  TiltedPath(EventSink& out, const TiltRules& rules) : EventFilter(out), rules_(rules) {}
 
   /// `machine` is where the axes are.
   void begin(const Tilt& tilt, const Position& machine);
@@ -62,7 +80,7 @@ class TiltedPath final : public EventFilter {
 
   /// A move that was not made: nothing of it has gone out.
   struct Fault {
-    DiagnosticRow row;
+    bool is_travel = false;  ///< beyond the axes' travel; else the path takes too many pieces
     Origin origin;
     std::string text;
   };
@@ -92,7 +110,6 @@ class TiltedPath final : public EventFilter {
   double minutes_of(const Line& line) const;
   Feed feed_within(double revolutions, const Position& to) const;
   Feed feed_of_axes(const Feed& feed, const Position& to) const;
-  bool checks_stroke() const;
   bool check(const Origin& origin, const Position& from, const Position& to);
   bool check_pieces(const Origin& origin, const Position& to, int pieces);
   bool check_arc(const Arc& arc);
@@ -103,10 +120,9 @@ class TiltedPath final : public EventFilter {
   void deliver_straight(const Event& whole, void (EventSink::*deliver)(const Event&));
   void deliver_pieces_of_arc(const Arc& arc);
 
-  const ControlOptions& options_;
-  const StrokeZone& zone_;
+  const TiltRules& rules_;
   State state_;
   std::optional<Fault> fault_;
 };
 
-}  // namespace dripline::interpreter::fanuc
+}  // namespace dripline::interpreter::tilting
