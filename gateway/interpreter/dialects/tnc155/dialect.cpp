@@ -43,12 +43,26 @@ bool load_datum_cell(const VariableRecord& variable, State& state) {
   return false;
 }
 
+/// QR5 of a later control; -1: none.
+std::int64_t retained_parameter(std::string_view name, std::size_t count) {
+  if (count != kAllParameters || !name.starts_with("QR")) return -1;
+  const auto number = parse_decimal(name.substr(2));
+  const bool is_one = number && number->scale == 0 && number->digits >= 0;
+  return is_one && number->digits < kRetainedParameters ? number->digits + kFirstRetained : -1;
+}
+
 /// Q0 to Q99; a later control has more.
 Result<void> load_parameters(const Setup& setup, State& state) {
-  const auto count = static_cast<std::int64_t>(state.q.size());
+  const auto all = state.q.size();
+  const auto count = static_cast<std::int64_t>(all == kAllParameters ? kItncParameters : all);
   for (const VariableRecord& variable : setup.variables) {
     const std::string_view name = variable.name;
     if (load_datum_cell(variable, state)) continue;
+    if (const std::int64_t retained = retained_parameter(name, all); retained >= 0) {
+      state.q[static_cast<std::size_t>(retained)] = variable.value;
+      state.known_retained.set(static_cast<std::size_t>(retained - kFirstRetained));
+      continue;
+    }
     const auto number = parse_decimal(name.substr(name.starts_with('Q') ? 1 : 0));
     if (!name.starts_with('Q') || !number || number->scale != 0 || number->digits < 0 ||
         number->digits >= count) {
@@ -79,7 +93,7 @@ Result<std::unique_ptr<Interpreter>> make_with(Result<ControlOptions> options, c
                                                ProgramSource& source, EventSink& sink) {
   if (!options) return fail(options.error());
   State state;
-  if (options->is_itnc) state.q.resize(kItncParameters);
+  if (options->is_itnc) state.q.resize(kAllParameters);
   std::vector<ToolDefinition> tools;
   if (auto done = load_datum(setup, options->is_itnc, state); !done) return fail(done.error());
   if (auto done = load_parameters(setup, state); !done) return fail(done.error());

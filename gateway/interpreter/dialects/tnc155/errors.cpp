@@ -55,6 +55,8 @@ constexpr std::array<ErrorRow, static_cast<std::size_t>(Count)> kRows{{
     {PocketMissing, {"TNC-POCKET", "NO FREE POCKET"}},
     {LoopLimit, {"TNC-LOOP-LIMIT", "PROGRAM REPEATS WITHOUT END"}},
     {ProgramError, {"TNC-PROGRAM-ERROR", "ERROR OF THE PROGRAM"}},
+    {OptionMissing, {"TNC-OPTION", "FUNCTION NOT ENABLED"}},
+    {TiltFailed, {"TNC-TILT", "TILTED WORKING PLANE"}},
 }};
 
 constexpr bool are_errors_in_order() {

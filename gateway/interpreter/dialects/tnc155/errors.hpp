@@ -51,6 +51,8 @@ enum class ErrorCode : std::uint8_t {
   PocketMissing,
   LoopLimit,
   ProgramError,
+  OptionMissing,
+  TiltFailed,
   Count,
 };
 

@@ -290,6 +290,8 @@ bool TncInterpreter::execute_parts() {
 bool TncInterpreter::check_moves() {
   if (run_.limits.reached()) [[unlikely]]
     return run_.fail_at_limit();
+  if (run_.tilted.fault()) [[unlikely]]
+    return run_.fail_in_tilt();
   return !run_.state.uses_stages || check_stages(run_);
 }
 
@@ -317,7 +319,8 @@ ActiveModes TncInterpreter::modes() const {
   if (state.compensation == Compensation::Right) modes.compensation = CompensationSide::Right;
   modes.tool_length_z = Length::mm(state.tool.data.length);
   if (state.tool.is_called) modes.length_axis = state.tool.axis;
-  modes.is_length_certain = !run_.is_length_doubtful;
+  modes.is_length_plain = !run_.tilted.is_on();
+  modes.is_length_certain = !run_.is_length_doubtful && !run_.tilted.is_on();
   modes.tool_radius = Length::mm(state.tool.data.radius);
   modes.feed = Feed::per_minute(Length::mm(state.feed));
   if (state.tool.is_called) modes.tool_axis = state.tool.axis;
@@ -326,13 +329,15 @@ ActiveModes TncInterpreter::modes() const {
 }
 
 std::optional<CoordinateFrame> TncInterpreter::frame() const {
+  if (run_.tilted.is_on()) return std::nullopt;
   return frame_of(run_.state);
 }
 
 std::vector<std::string> TncInterpreter::live_names() const {
   std::vector<std::string> names;
   names.reserve(run_.state.q.size());
-  for (std::size_t i = 0; i < run_.state.q.size(); ++i) names.push_back(fmt::format("Q{}", i));
+  for (std::size_t i = 0; i < run_.state.q.size(); ++i)
+    names.push_back(parameter_name(static_cast<std::int32_t>(i)));
   return names;
 }
 

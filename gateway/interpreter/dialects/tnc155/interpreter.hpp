@@ -3,6 +3,7 @@
 #include "gateway/interpreter/core/live_values.hpp"
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/ahead_search.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/coordinate_frame.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/run.hpp"
@@ -25,6 +26,7 @@ class TncInterpreter final : public BlockInterpreter<TncInterpreter>,
   Result<void> begin_next_text() override;
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
+  bool tilts_tool(const Position& at) const override { return is_tool_tilted(run_.options, at); }
   std::string travel_fault(const Position& from, const Position& to) override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;

@@ -9,6 +9,7 @@
 #include "gateway/interpreter/core/option_rows.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
+#include "gateway/interpreter/stages/tilting/kinematics.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
@@ -34,6 +35,7 @@ struct ControlOptions {
   bool compares_rounded = false;       ///< FN 9 to FN 12: within rounding, else all binary digits
   bool block_skip = false;             ///< Switches::block_skip, of a later control
   bool is_itnc = false;                ///< TNC 426/430, iTNC 530: the rules of itnc/
+  tilting::Kinematics kinematics;      ///< of a five-axis machine: PLANE, M128
 
   // touch probe
   double probe_clearance = 2;

@@ -32,7 +32,10 @@ Run::Run(ControlOptions control_options, ProgramSource& program_source, EventSin
       source(program_source),
       limits(event_sink, options.limit_low, options.limit_high),
       sink(limits.has_any() ? static_cast<EventSink&>(limits) : event_sink),
-      compensator(policy(), sink),
+      tilt_rules(options),
+      tilted(sink, tilt_rules),
+      path(options.kinematics.exists() ? static_cast<EventSink&>(tilted) : sink),
+      compensator(policy(), path),
       blender(corner_policy(), compensator),
       reader(program_source,
              ReaderOptions{options.iso_continuation, options.version, options.is_itnc}) {}
@@ -66,7 +69,21 @@ void Run::begin_blending() {
 void Run::reset_stages() {
   compensator.reset(state.machine);
   blender.reset(state.machine);
-  limits.place(state.machine);
+  if (!tilted.is_on()) {
+    limits.place(state.machine);
+    tilted.place(state.machine, state.mm_per_unit());
+  }
+}
+
+std::string TiltRulesOfTnc::travel_fault(const Position&, const Position& to, Units) const {
+  const tilting::Kinematics& machine = options_.kinematics;
+  for (const tilting::RotaryAxis* rotary : {&machine.master, &machine.slave}) {
+    const double at = to.raw(rotary->axis);
+    if (at >= rotary->low && at <= rotary->high) continue;
+    return fmt::format("{} {:.4f} is not {} to {}", letter(rotary->axis), at, rotary->low,
+                       rotary->high);
+  }
+  return {};
 }
 
 bool Run::fail(ErrorCode code, std::string_view detail) {
@@ -86,6 +103,12 @@ bool Run::fail_at_limit() {
   const LimitReached& limit = *limits.reached();
   origin = limit.origin;
   return fail_as(ErrorCode::LimitSwitch, text_of(limit));
+}
+
+bool Run::fail_in_tilt() {
+  const auto& fault = *tilted.fault();
+  origin = fault.origin;
+  return fail(fault.is_travel ? ErrorCode::LimitSwitch : ErrorCode::TiltFailed, fault.text);
 }
 
 bool Run::ask(Question asked) {

@@ -14,6 +14,7 @@
 #include "gateway/interpreter/dialects/tnc155/state.hpp"
 #include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
+#include "gateway/interpreter/stages/tilting/tilted_path.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
@@ -21,6 +22,18 @@ namespace dripline::interpreter::tnc155 {
 struct DefinitionAhead {
   Block block;
   Units units = Units::Millimeter;
+};
+
+/// The rotary axes' travel for the stage of tilted planes.
+class TiltRulesOfTnc final : public tilting::TiltRules {
+ public:
+  explicit TiltRulesOfTnc(const ControlOptions& options) : options_(options) {}
+  const tilting::Kinematics& kinematics() const override { return options_.kinematics; }
+  bool checks_travel() const override { return options_.kinematics.has_limits; }
+  std::string travel_fault(const Position& from, const Position& to, Units units) const override;
+
+ private:
+  const ControlOptions& options_;
 };
 
 /// The mask that FN 16 is being read into.
@@ -52,7 +65,7 @@ struct Run : BlockRun {
       deliver_header();
     if (state.uses_stages) [[unlikely]]
       return stages();
-    return sink;
+    return path;
   }
   /// From now on events pass the stage for compensation.
   void use_stages();
@@ -64,7 +77,7 @@ struct Run : BlockRun {
     if (state.uses_stages) [[unlikely]] {
       stages().on_block_end(origin);
     } else {
-      sink.on_block_end(origin);
+      path.on_block_end(origin);
     }
   }
 
@@ -73,11 +86,14 @@ struct Run : BlockRun {
   /// With a text in place of the control's.
   [[gnu::cold]] bool fail_as(ErrorCode code, std::string_view text);
   [[gnu::cold]] bool fail_at_limit();
+  [[gnu::cold]] bool fail_in_tilt();  ///< of `tilted`
   [[gnu::cold]] bool ask(Question asked);
   [[gnu::cold]] void warn(std::string_view id, std::string_view text);
 
   void set_q(std::int32_t parameter, double value) {
     state.q[static_cast<std::size_t>(parameter)] = value;
+    if (parameter >= kFirstRetained)
+      state.known_retained.set(static_cast<std::size_t>(parameter - kFirstRetained));
     ++q_changes;
   }
   /// The number of a word, or the value of its Q parameter; 0 for none. Every Q word is read here.
@@ -99,6 +115,9 @@ struct Run : BlockRun {
   ProgramSource& source;
   TravelLimits limits;
   EventSink& sink;  ///< after the limits, where there are any
+  TiltRulesOfTnc tilt_rules;
+  tilting::TiltedPath tilted;  ///< PLANE and M128; in use only where there are kinematics
+  EventSink& path;             ///< `tilted`, or the sink
   compensation::Compensator compensator;
   blending::CornerBlender blender;
   BlockReader reader;

@@ -9,7 +9,7 @@ namespace dripline::interpreter::language {
 template <>
 inline constexpr auto kLast<tnc155::Form> = tnc155::Form::Iso;
 template <>
-inline constexpr auto kLast<tnc155::BlockKind> = tnc155::BlockKind::Accepted;
+inline constexpr auto kLast<tnc155::BlockKind> = tnc155::BlockKind::TipControl;
 template <>
 inline constexpr auto kLast<tnc155::Compensation> = tnc155::Compensation::Shorter;
 template <>
@@ -35,7 +35,8 @@ void visit(Archive& archive, State& state) {
           state.labels, state.programs, state.known_labels, state.jump, state.start,
           state.is_restart, state.has_positioned, state.program_name, state.cycle_words,
           state.tool_feed, state.pole_plane, state.has_rounded, state.has_plane_angles,
-          state.takes_shorter_path, state.is_rapid_next, state.beside, state.is_beside);
+          state.takes_shorter_path, state.is_rapid_next, state.beside, state.is_beside,
+          state.plane_pose, state.plane_shift, state.doubtful_shift, state.known_retained);
 }
 
 namespace {
@@ -43,7 +44,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_itnc ? "itnc" : "tnc155";
 }
-constexpr std::uint32_t kVersion = 11;
+constexpr std::uint32_t kVersion = 12;
 
 bool is_plausible(const MachiningCycle& cycle) {
   return std::ranges::all_of(
@@ -59,10 +60,16 @@ bool is_plausible(const State& state) {
   return are_levels_right && state.transformation.scale != 0 && state.phase <= RunPhase::Alarmed &&
          state.labels.size() <= kMaxLabelLevels && state.programs.size() <= kMaxProgramLevels &&
          state.known_labels.size() <= kMaxLabels && state.definitions.size() <= kLastItncTool &&
-         (state.q.size() == kParameterCount || state.q.size() == kItncParameters) &&
+         (state.q.size() == kParameterCount || state.q.size() == kAllParameters) &&
          state.cycle_words.size() <= 32 && state.pockets.size() <= kMaxStoredTools &&
          is_plausible(state.cycle.machining) && is_plausible(state.cycle.draft) &&
          state.cycle.probe.q >= 0 && state.cycle.probe.q <= 99;
+}
+
+bool is_plausible(const tilting::TiltedPath::State& tilted, const ControlOptions& options) {
+  const auto kind = tilted.tilt.kind;
+  return kind == tilting::Tilt::Kind::None ||
+         (kind <= tilting::Tilt::Kind::TipControl && options.kinematics.exists());
 }
 
 }  // namespace
@@ -74,7 +81,8 @@ Snapshot take_snapshot(const Run& run) {
   std::vector<std::byte> path, corner;
   if (state.uses_stages) path = run.compensator.state();
   if (state.joins) corner = run.blender.state();
-  writer(state, origin, path, corner);
+  tilting::TiltedPath::State tilted = run.tilted.state();
+  writer(state, origin, path, corner, tilted);
   return {std::string(dialect_of(run)), kVersion, writer.take()};
 }
 
@@ -84,8 +92,10 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   State state;
   Origin origin;
   std::vector<std::byte> path, corner;
-  reader(state, origin, path, corner);
-  if (!reader.is_complete() || !is_plausible(state) || state.q.size() != run.state.q.size())
+  tilting::TiltedPath::State tilted;
+  reader(state, origin, path, corner, tilted);
+  if (!reader.is_complete() || !is_plausible(state) || !is_plausible(tilted, run.options) ||
+      state.q.size() != run.state.q.size())
     return snapshot.damage();
   const auto before = run.compensator.state();
   if (state.uses_stages) {
@@ -102,7 +112,10 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
     run.blender.reset(state.machine);
   }
   state.transformation.update();
-  run.limits.place(state.uses_stages ? run.compensator.sent() : state.machine);
+  run.tilted.restore(tilted);
+  run.limits.place(run.tilted.is_on()  ? run.tilted.machine()
+                   : state.uses_stages ? run.compensator.sent()
+                                       : state.machine);
   run.limits.reset();
   run.state = std::move(state);
   run.origin = origin;

@@ -80,6 +80,7 @@ struct ProgramFrame {
   ReadingState reading;  ///< of the caller
   std::uint8_t label_base = 0;
   bool resumes_modal_call = false;  ///< M89 rests while this program of a cycle runs
+  std::vector<double> locals;       ///< QL parameters of the caller, of a later control
 };
 struct LabelPlace {
   ProgramIndex program = kMainProgram;
@@ -215,10 +216,17 @@ struct State {
   PolarData polar;
 
   std::vector<double> q = std::vector<double>(kParameterCount);  ///< a later control has more
+  std::bitset<kRetainedParameters> known_retained;  ///< QR: set by the program or the setup
   std::vector<double> cycle_words;  ///< of a later control's cycle, in the order of its rows
   double tool_feed = 0;             ///< F of TOOL CALL: F AUTO
   bool has_plane_angles = false;    ///< Q120 to Q122, which are 0: no plane is tilted
   bool takes_shorter_path = false;  ///< M126
+  /// Where PLANE has computed the rotary axes to be; they may not be there yet.
+  std::optional<std::array<double, 2>> plane_pose;
+  AxisValues plane_shift{};  ///< the datum shift that was in force when the plane was tilted
+  /// X, Y, Z: whether a datum shift of the axis holds, made in one coordinate system and in force
+  /// in another, is not known.
+  std::array<bool, 3> doubtful_shift{};
   bool is_rapid_next = false;  ///< the last positioning block had FMAX: the path to an approach
   bool has_rounded = false;    ///< a comparison of a later control took two values as equal
   CycleState cycle;

@@ -13,6 +13,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_tilting.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -129,7 +130,7 @@ void make(Run& run, CycleMotion& motion, const MachiningCycle& cycle) {
 
 /// A cycle that does not keep to the limits is not begun.
 bool stays_within_limits(Run& run, CycleMotion& motion, const MachiningCycle& cycle) {
-  if (!run.limits.has_any()) return true;
+  if (!run.limits.has_any() || run.tilted.is_on()) return true;
   const Position machine = run.state.machine;
   const auto nominal = run.state.nominal;
   run.is_measuring = true;
@@ -176,7 +177,7 @@ bool call_cycle(Run& run) {
   if (cycle.number == kProgramCall) return call_cycle_program(run, cycle.program);
   if (cycle.number >= itnc::kFirstTable) return itnc::run_table(run);
   if (!refuse_before_positioning(run, "a cycle call")) return false;
-  if (!check_machining(run, cycle)) return false;
+  if (!itnc::check_tilted_cycle(run, "a cycle") || !check_machining(run, cycle)) return false;
   return run_machining(run, cycle);
 }
 

@@ -27,4 +27,11 @@ CoordinateFrame frame_of(const State& state) {
   return frame;
 }
 
+bool is_tool_tilted(const ControlOptions& options, const Position& at) {
+  constexpr double kStraight = 1e-9;
+  const tilting::Kinematics& machine = options.kinematics;
+  return machine.exists() &&
+         tilting::tool_direction(machine, tilting::pose_of(machine, at))[2] < 1 - kStraight;
+}
+
 }  // namespace dripline::interpreter::tnc155

@@ -11,6 +11,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_tilting.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -162,7 +163,7 @@ bool call(Run& run, const Block& block) {
 
 /// In the order of BlockKind.
 constexpr std::array<bool (*)(Run&, const Block&),
-                     static_cast<std::size_t>(BlockKind::Accepted) + 1>
+                     static_cast<std::size_t>(BlockKind::TipControl) + 1>
     kExecute{begin_program,
              end_by_block,
              define_tool,
@@ -195,7 +196,9 @@ constexpr std::array<bool (*)(Run&, const Block&),
              itnc::print,
              positioning /* Approach */,
              positioning /* Departure */,
-             itnc::accept};
+             itnc::accept,
+             itnc::set_plane,
+             itnc::change_tip_control};
 
 [[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run, const Block& block) {
   const std::string words = language::listed(run.ledger.left(), [&](std::size_t i) {
@@ -248,6 +251,9 @@ bool execute(Run& run, const Block& block) {
   if (needs_check(block) && !(run.options.is_itnc ? itnc::check_plane_angles(run, block)
                                                   : check_words(run, block))) [[unlikely]]
     return false;
+  for (const std::int32_t parameter : run.parts.itnc.retained) {
+    if (!itnc::check_retained(run, parameter)) return false;
+  }
   run.ledger.open((1u << block.coordinate_count) - 1);
   if (!kExecute[static_cast<std::size_t>(block.kind)](run, block)) return false;
   return run.ledger.left() == 0 || refuse_left_words(run, block);

@@ -160,6 +160,17 @@ BlockOutcome look_up_program(Run& run) {
   return BlockOutcome::Paused;
 }
 
+/// The QL parameters of a later control, which are the program's own: those of `next`, none: all 0.
+std::vector<double> exchange_locals(Run& run, const std::vector<double>& next) {
+  if (!run.options.is_itnc) return {};
+  const auto first = run.state.q.begin() + kFirstLocal;
+  std::vector<double> before(first, first + kLocalParameters);
+  std::fill(first, first + kLocalParameters, 0.0);
+  std::copy_n(next.begin(), std::min<std::size_t>(next.size(), kLocalParameters), first);
+  ++run.q_changes;
+  return before;
+}
+
 BlockOutcome find_program(Run& run, TextSearch& search) {
   State& state = run.state;
   if (state.programs.size() >= kMaxProgramLevels) {
@@ -172,7 +183,7 @@ BlockOutcome find_program(Run& run, TextSearch& search) {
   const ProgramIndex called = *std::exchange(run.called, std::nullopt);
   const bool is_cycle = state.jump.kind == JumpKind::CycleProgram;
   state.programs.push_back({state.at, state.reading, static_cast<std::uint8_t>(state.labels.size()),
-                            is_cycle && state.cycle.is_modal_call});
+                            is_cycle && state.cycle.is_modal_call, exchange_locals(run, {})});
   if (is_cycle) state.cycle.is_modal_call = false;
   if (run.options.modes_go_over_calls) {
     state.reading.program = ProgramForm{};
@@ -292,6 +303,9 @@ bool fail_unavailable(Run& run, std::int64_t number) {
 
 void end_program(Run& run, bool rewinds) {
   State& state = run.state;
+  if (state.programs.empty() && run.tilted.is_on())
+    run.warn("TNC-TILT-ENDS",
+             "the program ends without PLANE RESET or M129: here that ends with it");
   if (!state.programs.empty()) {
     const ProgramFrame& frame = state.programs.back();
     drop_labels_of(state, state.at.program);
@@ -307,6 +321,7 @@ void end_program(Run& run, bool rewinds) {
     }
     go_to(run, frame.back);
     state.cycle.is_modal_call |= frame.resumes_modal_call;
+    exchange_locals(run, frame.locals);
     state.programs.pop_back();
     return;
   }

@@ -43,6 +43,7 @@ std::vector<std::string> refusals(const Run& run, std::int32_t returning) {
   if (returning >= 0) {
     reasons.push_back(fmt::format("how often block {} leads back over it", returning));
   }
+  if (run.tilted.is_on()) reasons.push_back("the tilted plane, or M128: start before it");
   if (is_contour_open(state)) {
     reasons.push_back(
         fmt::format("the contour with radius compensation or the corner from {} on: "

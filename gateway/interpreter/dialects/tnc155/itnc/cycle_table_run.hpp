@@ -127,7 +127,7 @@ void make_cycle(const Table& table, int cycle);
 /// Whether `moves` would stay within the limits; it is made without output.
 template <class Moves>
 bool stays_within_limits(Run& run, const Moves& moves) {
-  if (!run.limits.has_any()) return true;
+  if (!run.limits.has_any() || run.tilted.is_on()) return true;
   const Position machine = run.state.machine;
   const AxisValues nominal = run.state.nominal, beside = run.state.beside;
   const bool is_beside = run.state.is_beside;

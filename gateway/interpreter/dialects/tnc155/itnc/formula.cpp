@@ -9,6 +9,21 @@
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
+namespace dripline::interpreter::tnc155 {
+
+std::string parameter_name(std::int32_t parameter) {
+  const std::int32_t first = parameter >= kFirstRetained ? kFirstRetained
+                             : parameter >= kFirstLocal  ? kFirstLocal
+                                                         : 0;
+  return fmt::format("{}{}",
+                     first == 0             ? "Q"
+                     : first == kFirstLocal ? "QL"
+                                            : "QR",
+                     parameter - first);
+}
+
+}  // namespace dripline::interpreter::tnc155
+
 namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
@@ -97,6 +112,7 @@ bool read_parameter(Run& run, std::int32_t parameter, double& value) {
   const double unit = state.mm_per_unit();
   value = state.q[static_cast<std::size_t>(parameter)];
   if (!is_of_control(parameter)) {
+    if (parameter >= kFirstRetained && !check_retained(run, parameter)) return false;
     if (state.start.is_searching) note_use(run, parameter);
     return true;
   }
@@ -112,6 +128,17 @@ bool read_parameter(Run& run, std::int32_t parameter, double& value) {
           : parameter == kToolLength ? state.tool.data.length / unit
                                      : static_cast<double>(state.tool.axis);
   return true;
+}
+
+}  // namespace
+
+bool check_retained(Run& run, std::int32_t parameter) {
+  if (run.state.known_retained.test(static_cast<std::size_t>(parameter - kFirstRetained)))
+    return true;
+  return run.fail(
+      ErrorCode::NotSupported,
+      fmt::format("{} keeps what an earlier program left: the setup has no such variable",
+                  parameter_name(parameter)));
 }
 
 bool evaluate(Run& run, const Formula& formula, double& result) {
@@ -150,6 +177,8 @@ bool evaluate(Run& run, const Formula& formula, double& result) {
   return true;
 }
 
+namespace {
+
 bool set(Run& run, std::int32_t parameter, double value) {
   run.set_q(parameter, value);
   return true;
@@ -172,8 +201,8 @@ bool note_system_in_search(Run& run, const Block& block, bool is_rebuilt) {
   if (!run.state.start.is_searching) return true;
   if (is_rebuilt) return note_result(run, block);
   return run.fail(ErrorCode::ProgramStartUndefined,
-                  fmt::format("a start after FN 18 has read into Q{} what the program had not set",
-                              block.target));
+                  fmt::format("a start after FN 18 has read into {} what the program had not set",
+                              parameter_name(block.target)));
 }
 
 /// The control keeps values as binary numbers (IEEE 754; iTNC 530, User's Manual, programming notes

@@ -8,6 +8,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/cycle_table_run.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_tilting.hpp"
 
 /// Cycles 200 to 209 and 240. Source: iTNC 530 (and TNC 426/430), User's Manual, Cycles: drilling,
 /// tapping and thread milling; the steps of each are in this folder's README.
@@ -292,6 +293,7 @@ bool check_call(Run& run, const Table& table, bool& is_idle) {
   const State& state = run.state;
   const int cycle = state.cycle.machining.number;
   if (!refuse_before_positioning(run, "a cycle call")) return false;
+  if (!check_tilted_cycle(run, "a cycle")) return false;
   if (state.is_compensating() || state.is_parallel || state.blend.kind != BlendKind::None) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted,
                     fmt::format("cycle {} within a contour: R0 before it", cycle));

@@ -12,6 +12,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_tilting.hpp"
 
 namespace dripline::interpreter::tnc155::itnc {
 namespace {
@@ -86,6 +87,7 @@ bool call_by_m(Run& run, const Extras& extras, bool moves) {
 /// The cycle, then the end of the program.
 bool finish(Run& run, const Extras& extras, bool moves = false) {
   if (!end_codes(run, extras) || !call_by_m(run, extras, moves)) return false;
+  if (run.parts.itnc.tip == TipWords::End && !end_tip_control(run)) return false;
   if (!extras.ends) return true;
   // A later control takes neither M2 nor M30 in a called program; as a return the rest would be
   // cut.
@@ -138,6 +140,7 @@ bool retract(Run& run, const Block& block) {
   if (state.cycle.is_modal_call) {
     return run.fail(ErrorCode::NotSupported, "M140 while M89 calls the cycle: end it with M99");
   }
+  if (run.tilted.is_on() && !check_tilted_cycle(run, "M140")) return false;
   if (!read_feed(run, block)) return false;
   Pace pace = kRapid;
   if (block.feed.is_programmed()) pace = {false, state.feed, state.rotary_feed};
@@ -151,7 +154,13 @@ bool retract(Run& run, const Block& block) {
                       fmt::format("M140 MB MAX: the setup has no limit_high of {}", letter(axis)));
     }
     const double limit = run.options.limit_high.raw(axis);
-    if (limit > state.machine.raw(axis)) {
+    if (run.tilted.is_on()) {
+      if (run.options.kinematics.type != tilting::KinematicType::TableTable)
+        return run.fail(ErrorCode::TiltFailed, "M140 MB MAX on a machine with a head");
+      const double free = std::max(0.0, limit - run.tilted.machine().raw(axis));
+      target.set(axis, target.at[index(axis)] + free);
+      line_to(run, target, pace);
+    } else if (limit > state.machine.raw(axis)) {
       target.set(axis, limit);
       machine_line_to(run, target, pace);
     }
@@ -174,15 +183,21 @@ bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
                      block.kind == BlockKind::PolarArc;
   if (moves && block.kind != BlockKind::Approach) run.state.is_rapid_next = block.is_rapid;
   if (words.is_auto_feed && block.kind != BlockKind::Approach && !use_tool_feed(run)) return false;
-  const bool is_plain =
-      !run.state.cycle.is_modal_call && !run.state.takes_shorter_path && !words.retracts;
+  const bool is_plain = !run.state.cycle.is_modal_call && !run.state.takes_shorter_path &&
+                        !words.retracts && words.tip == TipWords::None && !run.tilted.is_on() &&
+                        run.state.doubtful_shift == std::array<bool, 3>{};
   if (words.m_count == 0 && block.m == Block::kNone && is_plain) [[likely]]
     return move(run, block);
   Extras extras;
   if (!sort_m(run, extras)) return false;
   if (run.state.takes_shorter_path && !check_shorter_path(run, block)) return false;
   if (!check_modal_call(run, extras, moves) || !begin_codes(run, extras)) return false;
-  return (words.retracts ? retract(run, block) : move(run, block)) && finish(run, extras, moves);
+  if (words.tip == TipWords::Begin && !begin_tip_control(run)) return false;
+  if (words.retracts) return retract(run, block) && finish(run, extras, moves);
+  bool is_made = false;
+  if (!check_shift_is_known(run, block)) return false;
+  if (run.tilted.is_on() && !check_tilted_move(run, block, is_made)) return false;
+  return (is_made || move(run, block)) && finish(run, extras, moves);
 }
 
 bool set_pole(Run& run, const Block& block) {
@@ -220,8 +235,15 @@ bool move_in_pole_plane(Run& run, const Block& block, bool (*move)(Run&, const B
   return is_made;
 }
 
+/// Where M128 and M129 say nothing about a path.
+bool refuse_tip_words(Run& run) {
+  return run.parts.itnc.tip == TipWords::None ||
+         run.fail(ErrorCode::NotSupported, "M128 or M129 in this block");
+}
+
 bool stop_block(Run& run, const Block& block) {
   Extras extras;
+  if (!refuse_tip_words(run)) return false;
   if (block.m != Block::kNone) {
     return run.fail(ErrorCode::BlockFormatIncorrect, fmt::format("STOP with M{}", block.m));
   }
@@ -236,6 +258,7 @@ bool stop_block(Run& run, const Block& block) {
 
 bool cycle_call(Run& run, const Block& block) {
   Extras extras;
+  if (!refuse_tip_words(run)) return false;
   if (block.m != Block::kNone) {
     return run.fail(ErrorCode::BlockFormatIncorrect, fmt::format("CYCL CALL with M{}", block.m));
   }
@@ -257,6 +280,7 @@ bool cycle_call_at(Run& run, const Block& block) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted, "CYCL CALL POS needs R0");
   }
   Extras extras;
+  if (!refuse_tip_words(run) || !check_tilted_cycle(run, "CYCL CALL POS")) return false;
   Target target = here(state);
   read_coordinates(run, block, target);
   const PlaneAxes axes = axes_of(state.plane);
@@ -311,27 +335,6 @@ bool corner(Run& run, const Block& block) {
   return is_made;
 }
 
-/// Cycle 247: a row of the preset table becomes the datum, and the transformations of the program
-/// end (iTNC 530, User's Manual Cycles: datum setting).
-bool use_preset(Run& run, int number) {
-  const auto& presets = run.options.presets;
-  const auto at = std::ranges::find_if(
-      presets, [=](const ControlOptions::Preset& preset) { return preset.number == number; });
-  if (at == presets.end()) {
-    return run.fail(ErrorCode::NotSupported,
-                    fmt::format("CYCL DEF 247: the setup has no offset preset{}", number));
-  }
-  if (run.state.is_compensating()) {
-    return run.fail(ErrorCode::PathOffsetWronglyStarted, "CYCL DEF 247 within a contour");
-  }
-  end_contour(run, false);
-  Transformation changed = run.state.transformation;
-  changed.cancel_cycles();
-  changed.datum = values_of(at->datum);
-  change_transformation(run, changed);
-  return true;
-}
-
 bool fail_plane_angle(Run& run, std::int32_t parameter) {
   return run.fail(ErrorCode::NotSupported,
                   fmt::format("Q{} before a PLANE has computed it", parameter));
@@ -349,30 +352,8 @@ bool check_plane_angles(Run& run, const Block& block) {
 }
 
 bool accept(Run& run, const Block&) {
-  run.state.has_plane_angles |= run.parts.itnc.is_plane;
   run.warn("TNC-ACCEPTED", fmt::format("{} is not followed", run.parts.itnc.name));
   return true;
-}
-
-bool check_order(Run& run, const Block& block) {
-  const Transformation& now = run.state.transformation;
-  const bool is_mirrored = std::ranges::any_of(now.mirrored, [](bool is) { return is; });
-  std::string_view before;
-  if (now.rotation != 0) before = "a rotation";
-  if (is_mirrored) before = "a mirror image";
-  if (now.scale != 1 && block.cycle == 7) before = "a scaling";
-  bool changes = false;
-  if (block.cycle == 7) {
-    for (const Coordinate& word : block.words()) changes |= run.number(word.value) != 0;
-  } else if (block.cycle == 8) {
-    changes = block.coordinate_count != 0 && !is_mirrored;
-  } else if (block.cycle == 10) {
-    changes = is_mirrored && run.number(block.angle) != 0;
-  }
-  if (!changes || before.empty()) return true;
-  return run.fail(ErrorCode::NotSupported,
-                  fmt::format("CYCL DEF {} after {}: which comes first is not known; end it before",
-                              block.cycle, before));
 }
 
 }  // namespace dripline::interpreter::tnc155::itnc

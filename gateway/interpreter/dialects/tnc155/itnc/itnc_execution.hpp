@@ -28,6 +28,9 @@ bool accept(Run& run, const Block& block);
 bool fail_plane_angle(Run& run, std::int32_t parameter);
 /// The same, where they are coordinates.
 bool check_plane_angles(Run& run, const Block& block);
+/// A QR parameter that neither the program nor the setup has set is an alarm.
+bool check_retained(Run& run, std::int32_t parameter);
+bool evaluate(Run& run, const Formula& formula, double& result);
 bool assign(Run& run, const Block& block);
 bool compare(Run& run, const Block& block);
 bool raise_error(Run& run, const Block& block);

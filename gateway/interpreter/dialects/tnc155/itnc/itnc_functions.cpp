@@ -58,9 +58,9 @@ bool read_operand(Reading& in, Formula& formula) {
   if (is_operand_missing(cursor)) return missing_operand(in);
   FormulaStep step;
   if (cursor.take('Q')) {
-    if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
+    if (!is_parameter(cursor.at() - 1)) return refuse(in, start);  // QS: a text
     step.kind = Kind::Parameter;
-    if (!cursor.read_integer(step.parameter, 0, kItncParameters - 1, "Q")) return false;
+    if (!read_parameter_number(in, step.parameter)) return false;
     const bool is_known = step.parameter == kToolRadius || step.parameter == kToolAxis ||
                           step.parameter == kInchProgram || step.parameter == kToolLength ||
                           is_plane_angle(step.parameter);
@@ -147,19 +147,10 @@ bool read_sum(Reading& in, Formula& formula, int depth) {
   }
 }
 
-/// A number or Q parameter with its sign, as FN has them.
-bool read_signed(Reading& in, Formula& formula) {
-  const bool is_negative = in.cursor.take('-');
-  if (!is_negative) in.cursor.take('+');
-  if (!read_operand(in, formula)) return false;
-  return !is_negative ||
-         add(in, formula, {.kind = Kind::Function, .function = FormulaFunction::Neg});
-}
-
 bool read_target(Reading& in) {
-  if (!in.cursor.take('Q') || !in.cursor.is_digit_next()) return in.cursor.missing("Q");
+  if (!in.cursor.take('Q') || !is_parameter(in.cursor.at() - 1)) return in.cursor.missing("Q");
   const char* start = in.cursor.at();
-  if (!in.cursor.read_integer(in.block.target, 0, kItncParameters - 1, "Q")) return false;
+  if (!read_parameter_number(in, in.block.target)) return false;
   if (is_of_control(in.block.target)) return refuse(in, start);
   return in.cursor.take('=') || in.cursor.missing("=");
 }
@@ -254,9 +245,10 @@ bool read_print_of_values(Reading& in) {
   do {
     in.cursor.peek();
     const char* start = in.cursor.at();
-    if (!in.cursor.take('Q') || !in.cursor.is_digit_next()) return refuse(in, start);
+    if (!in.cursor.take('Q') || !is_parameter(in.cursor.at() - 1)) return refuse(in, start);
     std::int32_t parameter = 0;
-    if (!in.cursor.read_integer(parameter, 0, kItncParameters - 1, "Q")) return false;
+    if (!read_parameter_number(in, parameter)) return false;
+    if (parameter >= kFirstRetained) in.words.retained.push_back(parameter);
     if (is_of_control(parameter)) return refuse(in, start);
     if (in.words.ids.size() == kMostValues) return in.cursor.wrong("more than six values");
     in.words.ids.push_back(parameter);
@@ -287,10 +279,18 @@ bool read_print(Reading& in) {
 
 }  // namespace
 
+bool read_signed(Reading& in, Formula& formula) {
+  const bool is_negative = in.cursor.take('-');
+  if (!is_negative) in.cursor.take('+');
+  if (!read_operand(in, formula)) return false;
+  return !is_negative ||
+         add(in, formula, {.kind = Kind::Function, .function = FormulaFunction::Neg});
+}
+
 bool read_assignment(Reading& in) {
   in.block.kind = BlockKind::Assignment;
   const char* start = in.cursor.at();
-  if (!in.cursor.read_integer(in.block.target, 0, kItncParameters - 1, "Q")) return false;
+  if (!read_parameter_number(in, in.block.target)) return false;
   if (is_of_control(in.block.target)) return refuse(in, start);
   if (!in.cursor.take('=')) return in.cursor.missing("=");
   return read_sum(in, in.words.formula, 0) && (in.cursor.is_at_end() || refuse(in, in.cursor.at()));

@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <charconv>
 #include "gateway/interpreter/core/option_rows.hpp"
+
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
+#include "gateway/interpreter/stages/tilting/kinematic_options.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace itnc {
@@ -22,43 +26,47 @@ Result<void> read_tool_axis(const Options& options, const OptionKey& key, C& con
   return {};
 }
 
-constexpr auto kRows = in_table(
-    "option",
-    std::array{
-        row<&C::start_block>("start_block", kWhole,
-                             "start in the middle: number of the first block; -1: none",
-                             {-1, kHighestBlock}),
-        Row{{"start_at", kText, "the same, as a start names it: N400 or 400"}, read_start},
-        Row{kStartPass, read_start_pass},
-        row<&C::cancels_transformations>("cancel_transformations", kFlag,
-                                         "M2, M30 and END PGM cancel transformations"),
-        row<&C::scales_three_axes>("scale_three_axes", kFlag,
-                                   "cycle 11 scales all main axes; else those of the plane"),
-        row<&C::pocket_overlap>("pocket_overlap", kNumber,
-                                "stepover of cycles 4 and 5 as a share of the tool radius",
-                                kPositive),
-        row<&C::m89_modal>(
-            "m89_modal", kFlag,
-            "M89 calls the cycle after each positioning block; else a free M function"),
-        row<&C::compares_rounded>(
-            "comparison", "exact|rounded",
-            "FN 9 to FN 12: all binary digits count, or values that differ by rounding are equal"),
-        Row{{"tool_axis", "unknown|X|Y|Z",
-             "of M140 before the first TOOL CALL, as the control keeps it from the run before",
-             "unknown"},
-            read_tool_axis},
-        row<&C::m06_stop>("m06_stop", kFlag, "M6 stops the program"),
-        row<&C::spindle_minimum>("spindle_minimum", kNumber, "lowest speed", kSpeeds, "rpm"),
-        row<&C::spindle_maximum>("spindle_maximum", kNumber, "highest speed", kSpeeds, "rpm"),
-        row<&C::contour_feed>(
-            "rotary_feed", "rotary|contour",
-            "feed of a move with linear and rotary axes: of the rotary axis, or along the path"),
-        row<&C::circle_tolerance>("circle_tolerance", kLength,
-                                  "between the radii at start and end of an arc", kNotNegative),
-        row<&C::limit_low>("limit_low", kAxisTable, "software limits, machine coordinates"),
-        row<&C::limit_high>("limit_high", kAxisTable, "software limits, machine coordinates"),
-        row<&C::m92_position>("m92_position", kAxisTable, "what coordinates of M92 refer to"),
-    });
+constexpr auto kOwnRows = std::array{
+    row<&C::start_block>("start_block", kWhole,
+                         "start in the middle: number of the first block; -1: none",
+                         {-1, kHighestBlock}),
+    Row{{"start_at", kText, "the same, as a start names it: N400 or 400"}, read_start},
+    Row{kStartPass, read_start_pass},
+    row<&C::cancels_transformations>("cancel_transformations", kFlag,
+                                     "M2, M30 and END PGM cancel transformations"),
+    row<&C::scales_three_axes>("scale_three_axes", kFlag,
+                               "cycle 11 scales all main axes; else those of the plane"),
+    row<&C::pocket_overlap>("pocket_overlap", kNumber,
+                            "stepover of cycles 4 and 5 as a share of the tool radius", kPositive),
+    row<&C::m89_modal>("m89_modal", kFlag,
+                       "M89 calls the cycle after each positioning block; else a free M function"),
+    row<&C::compares_rounded>(
+        "comparison", "exact|rounded",
+        "FN 9 to FN 12: all binary digits count, or values that differ by rounding are equal"),
+    Row{{"tool_axis", "unknown|X|Y|Z",
+         "of M140 before the first TOOL CALL, as the control keeps it from the run before",
+         "unknown"},
+        read_tool_axis},
+    row<&C::m06_stop>("m06_stop", kFlag, "M6 stops the program"),
+    row<&C::spindle_minimum>("spindle_minimum", kNumber, "lowest speed", kSpeeds, "rpm"),
+    row<&C::spindle_maximum>("spindle_maximum", kNumber, "highest speed", kSpeeds, "rpm"),
+    row<&C::contour_feed>(
+        "rotary_feed", "rotary|contour",
+        "feed of a move with linear and rotary axes: of the rotary axis, or along the path"),
+    row<&C::circle_tolerance>("circle_tolerance", kLength,
+                              "between the radii at start and end of an arc", kNotNegative),
+    row<&C::limit_low>("limit_low", kAxisTable, "software limits, machine coordinates"),
+    row<&C::limit_high>("limit_high", kAxisTable, "software limits, machine coordinates"),
+    row<&C::m92_position>("m92_position", kAxisTable, "what coordinates of M92 refer to"),
+};
+
+constexpr auto kRows = [] {
+  constexpr auto kKinematicRows = tilting::kinematic_rows<C>();
+  std::array<Row, kOwnRows.size() + kKinematicRows.size()> rows{};
+  std::ranges::copy(kOwnRows, rows.begin());
+  std::ranges::copy(kKinematicRows, rows.begin() + kOwnRows.size());
+  return in_table("option", rows);
+}();
 
 }  // namespace
 }  // namespace itnc

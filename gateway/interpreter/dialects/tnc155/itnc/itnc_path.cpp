@@ -19,12 +19,22 @@ bool read_retract(Reading& in, const char* start) {
   return read_value(in, in.words.retract, "MB");
 }
 
+/// M128 may have a feed of its own, for the moves that compensate; it limits those of the axes, and
+/// the program's F is the tip's.
+bool read_tip_m(Reading& in, int m) {
+  in.words.tip = m == 128 ? TipWords::Begin : TipWords::End;
+  if (m == 129 || !in.cursor.take('F')) return true;
+  Value feed;
+  return read_value(in, feed, "F of M128");
+}
+
 /// After the M.
 bool read_m(Reading& in, const char* start) {
   if (!in.cursor.is_digit_next()) return true;
   std::int32_t m = 0;
   if (!in.cursor.read_integer(m, 0, 9999, "M")) return false;
   if (m == 140) return read_retract(in, start);
+  if (m == 128 || m == 129) return read_tip_m(in, m);
   if (m > 99 || m == 93 || m == 95 || m == 96) {
     switch (m) {
       case 107:
@@ -35,7 +45,6 @@ bool read_m(Reading& in, const char* start) {
       case 120:
       case 126:
       case 127:
-      case 129:
       case 135:
       case 137:
       case 145:
@@ -150,7 +159,8 @@ bool is_complete(Reading& in) {
   if (block.kind == BlockKind::RadiusArc && !block.radius.is_programmed()) {
     return in.cursor.missing("R");
   }
-  const bool needs_end = block.kind == BlockKind::Arc || block.kind == BlockKind::TangentArc ||
+  // C without coordinates ends where it begins: a full circle.
+  const bool needs_end = block.kind == BlockKind::TangentArc ||
                          block.kind == BlockKind::RadiusArc || block.kind == BlockKind::SingleAxis;
   if (needs_end && block.coordinate_count == 0) return in.cursor.missing("the end point");
   return true;

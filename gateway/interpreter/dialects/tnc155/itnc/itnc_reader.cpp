@@ -30,6 +30,26 @@ bool refuse(Reading& in, const char* start) {
   return in.cursor.wrong(ErrorCode::NotSupported, start, words);
 }
 
+bool is_parameter(const char* at) {
+  if (*at != 'Q') return false;
+  const bool is_other = at[1] == 'L' || at[1] == 'R';
+  return TextCursor::is_digit(at[is_other ? 2 : 1]);
+}
+
+bool read_parameter_number(Reading& in, std::int32_t& parameter) {
+  TextCursor& cursor = in.cursor;
+  const char kind = *cursor.at();
+  if (kind != 'L' && kind != 'R')
+    return cursor.read_integer(parameter, 0, kItncParameters - 1, "Q");
+  cursor.advance();
+  const bool is_local = kind == 'L';
+  const int first = is_local ? kFirstLocal : kFirstRetained;
+  const int count = is_local ? kLocalParameters : kRetainedParameters;
+  if (!cursor.read_integer(parameter, 0, count - 1, is_local ? "QL" : "QR")) return false;
+  parameter += first;
+  return true;
+}
+
 bool read_value(Reading& in, Value& value, std::string_view name) {
   TextCursor& cursor = in.cursor;
   const char* start = (cursor.peek(), cursor.at());
@@ -38,8 +58,9 @@ bool read_value(Reading& in, Value& value, std::string_view name) {
   cursor.peek();
   if (cursor.take('Q')) {
     std::int32_t parameter = 0;
-    if (!TextCursor::is_digit(*cursor.at())) return refuse(in, start);  // QL, QR, QS
-    if (!cursor.read_integer(parameter, 0, kItncParameters - 1, "Q")) return false;
+    if (!is_parameter(cursor.at() - 1)) return refuse(in, start);  // QS: a text
+    if (!read_parameter_number(in, parameter)) return false;
+    if (parameter >= kFirstRetained) in.words.retained.push_back(parameter);
     const bool is_taken = in.takes_plane_angle && is_plane_angle(parameter);
     if (is_of_control(parameter) && !is_taken) return refuse(in, start);
     value = Value::q(parameter, is_negative);
@@ -186,26 +207,6 @@ bool read_program_call(Reading& in) {
   return in.cursor.ends();
 }
 
-/// PLANE SPATIAL with three angles of 0 and STAY: nothing is tilted and nothing moves. Every other
-/// plane is an alarm.
-bool read_flat_plane(Reading& in, const char* start) {
-  TextCursor& cursor = in.cursor;
-  for (const std::string_view word : {"SPA", "SPB", "SPC"}) {
-    Value angle;
-    if (!cursor.take(word)) return refuse(in, start);
-    if (!read_value(in, angle, word)) return false;
-    if (angle.is_q() || angle.number != 0) return refuse(in, start);
-  }
-  if (!cursor.take("STAY")) return refuse(in, start);
-  if (cursor.take("SEQ") && !cursor.take('+') && !cursor.take('-')) return refuse(in, start);
-  if (!cursor.take("TABLE ROT")) cursor.take("COORD ROT");
-  if (!cursor.is_at_end()) return refuse(in, start);
-  in.block.kind = BlockKind::Accepted;
-  in.words.name = "PLANE SPATIAL with angles of 0";
-  in.words.is_plane = true;
-  return true;
-}
-
 bool is_contour_end(Reading& in) {
   constexpr std::array kForms{"LT", "LN", "CT", "LCT", "PLT", "PLN", "PCT", "PLCT"};
   constexpr std::size_t kPolar = 4;
@@ -238,17 +239,16 @@ bool read_keyword(Reading& in, const char* start) {
   if (cursor.take("STOP")) return in.block.kind = BlockKind::Stop, read_m_words(in);
   if (cursor.take("RND")) return read_corner(in, BlockKind::Rounding);
   if (cursor.take("FN")) return read_function(in);
-  if (cursor.take("PLANE SPATIAL")) return read_flat_plane(in, start);
-  // No plane is ever tilted here, and no tool center point control on.
-  for (const std::string_view words : {"PLANE RESET STAY", "FUNCTION RESET TCPM"}) {
-    cursor.back_to(start);
-    if (!cursor.take(words) || !cursor.is_at_end()) continue;
-    in.block.kind = BlockKind::Accepted;
-    in.words.name = words;
-    return true;
+  if (cursor.take("PLANE")) return read_plane(in, start);
+  if (cursor.take("FUNCTION RESET TCPM") && cursor.is_at_end()) {
+    in.words.name = "FUNCTION RESET TCPM";
+    in.words.tip = TipWords::End;
+    return in.block.kind = BlockKind::TipControl, true;
   }
   cursor.back_to(start);
-  if (*start == 'Q' && TextCursor::is_digit(start[1])) return cursor.advance(), read_assignment(in);
+  if (cursor.take("FUNCTION TCPM")) return read_tip_control(in, start);
+  cursor.back_to(start);
+  if (is_parameter(start)) return cursor.advance(), read_assignment(in);
   const bool is_axis = is_axis_letter(*start) && !(start[1] >= 'A' && start[1] <= 'P');
   if (*start == 'I' || is_axis) return read_path(in, BlockKind::SingleAxis);
   if (*start == 'M' && TextCursor::is_digit(start[1])) {
@@ -267,7 +267,7 @@ bool read_c(Reading& in, const char* start) {
   if (cursor.take("CALL PGM")) return read_program_call(in);
   if (cursor.take("CALL")) return refuse(in, start);
   if (cursor.take("CHF")) return read_corner(in, BlockKind::Chamfer);
-  if (cursor.take("CTP")) return refuse(in, start);
+  if (cursor.take("CTP") || cursor.take("CYC")) return refuse(in, start);
   if (cursor.take("CC")) return read_center(in);
   if (cursor.take("CP")) return read_path(in, BlockKind::PolarArc);
   if (cursor.take("CT")) return read_path(in, BlockKind::TangentArc);

@@ -26,6 +26,10 @@ struct Reading {
 };
 
 bool read_value(Reading& in, Value& value, std::string_view name);
+/// After the Q: 5, L5 or R5.
+bool read_parameter_number(Reading& in, std::int32_t& parameter);
+/// Whether these characters begin a parameter.
+bool is_parameter(const char* at);
 /// The end of the first line without its comment, and without the `~` at its end.
 const char* line_without_comment(const char* begin, const char* end);
 /// 1 to 1000 characters up to a blank.
@@ -50,6 +54,10 @@ bool read_tool_call(Reading& in);
 bool read_blank(Reading& in);       ///< after BLK FORM
 bool read_assignment(Reading& in);  ///< after the Q
 bool read_function(Reading& in);    ///< after FN
+/// A number or a Q parameter with its sign.
+bool read_signed(Reading& in, Formula& formula);
+bool read_plane(Reading& in, const char* start);        ///< after PLANE
+bool read_tip_control(Reading& in, const char* start);  ///< after FUNCTION TCPM
 /// After CYCL DEF; `end` of the whole block.
 bool read_cycle(Reading& in, const char* block_end);
 

@@ -5,6 +5,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/itnc_tilting.hpp"
 
 /// TOOL CALL of the later controls.
 namespace dripline::interpreter::tnc155::itnc {
@@ -43,7 +44,12 @@ bool call_tool(Run& run, const Block& block) {
   if (has_delta && call.target == Block::kNone) {
     return run.fail(ErrorCode::NotSupported, "DL or DR in TOOL CALL without a tool");
   }
+  const bool is_change = call.target != Block::kNone || call.axis.has_value();
+  if (is_change && run.tilted.is_on() && !check_tilted_tool(run)) return false;
+  if (run.tilted.is_on() && call.axis.value_or(Axis::Z) != Axis::Z)
+    return run.fail(ErrorCode::TiltFailed, "another tool axis than Z");
   if (!tnc155::call_tool(run, call)) return false;
+  run.tilted.set_length(state.tool.data.length);
   if (call.target != Block::kNone) state.tool_feed = 0;
   if (words.feed.is_programmed()) {
     if (!read_cycle_feed(run, words.feed, state.tool_feed)) return false;

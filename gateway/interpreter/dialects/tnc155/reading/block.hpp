@@ -76,6 +76,8 @@ enum class BlockKind : std::uint8_t {
   Approach,     ///< APPR LT, LN, CT, LCT
   Departure,    ///< DEP LT, LN, CT, LCT
   Accepted,     ///< what says nothing about the path: a warning names it
+  Plane,        ///< PLANE: a tilted working plane
+  TipControl,   ///< FUNCTION TCPM
 };
 
 enum class Compensation : std::uint8_t {
