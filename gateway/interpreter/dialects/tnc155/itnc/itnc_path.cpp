@@ -141,6 +141,9 @@ bool read_path_word(Reading& in) {
       return read_feed(in, false);
     case 'M':
       return read_m(in, start);
+    case 'S':  // of TOOL CALL alone
+      cursor.back_to(start);
+      return cursor.wrong("S in a positioning block: the speed is that of TOOL CALL");
     default:
       return refuse(in, start);
   }

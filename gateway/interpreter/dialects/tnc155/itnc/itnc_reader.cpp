@@ -30,6 +30,28 @@ bool refuse(Reading& in, const char* start) {
   return in.cursor.wrong(ErrorCode::NotSupported, start, words);
 }
 
+bool refuse_keyword(Reading& in, const char* start) {
+  // Words that begin a block of these controls; what they do is not known here.
+  constexpr std::array<std::string_view, 29> kOfControl{
+      "TCH PROBE", "CYCL",    "CTP",    "FN",         "PLANE",  "FUNCTION", "FPOL",     "FL",
+      "FC",        "FSELECT", "LN",     "SPL",        "SEL",    "CALL",     "PATTERN",  "CONTOUR",
+      "TRANS",     "DECLARE", "GLOBAL", "TOOL",       "QS",     "TABDATA",  "POLARKIN", "APPR",
+      "DEP",       "BLK",     "INSERT", "CORRECTION", "PROBING"};
+  for (const std::string_view word : kOfControl) {
+    in.cursor.back_to(start);
+    const bool is_it = in.cursor.take(word);
+    const char next = *in.cursor.at();
+    in.cursor.back_to(start);
+    const bool is_longer = next >= 'A' && next <= 'Z';  // CYCLE, FLUTE
+    if (is_it && !is_longer) return refuse(in, start);
+  }
+  std::string words(start, in.end);
+  constexpr std::size_t kShown = 40;
+  if (words.size() > kShown) words = words.substr(0, kShown) + "...";
+  return in.cursor.wrong(ErrorCode::BlockFormatIncorrect, start,
+                         fmt::format("no block of this control begins so: {}", words));
+}
+
 bool is_parameter(const char* at) {
   if (*at != 'Q') return false;
   const bool is_other = at[1] == 'L' || at[1] == 'R';
@@ -254,7 +276,7 @@ bool read_keyword(Reading& in, const char* start) {
   if (*start == 'M' && TextCursor::is_digit(start[1])) {
     return in.block.kind = BlockKind::Line, read_m_words(in);
   }
-  return refuse(in, start);
+  return refuse_keyword(in, start);
 }
 
 bool read_c(Reading& in, const char* start) {
@@ -267,7 +289,7 @@ bool read_c(Reading& in, const char* start) {
   if (cursor.take("CALL PGM")) return read_program_call(in);
   if (cursor.take("CALL")) return refuse(in, start);
   if (cursor.take("CHF")) return read_corner(in, BlockKind::Chamfer);
-  if (cursor.take("CTP") || cursor.take("CYC")) return refuse(in, start);
+  if (cursor.take("CTP") || cursor.take("CYC")) return refuse_keyword(in, start);
   if (cursor.take("CC")) return read_center(in);
   if (cursor.take("CP")) return read_path(in, BlockKind::PolarArc);
   if (cursor.take("CT")) return read_path(in, BlockKind::TangentArc);

@@ -41,6 +41,8 @@ bool read_axis_word(Reading& in);
 bool read_feed(Reading& in, bool is_own);
 /// NOT SUPPORTED: the words up to the end of the block.
 bool refuse(Reading& in, const char* start);
+/// The same of a block's first word; of one that is none of the control's BLOCK FORMAT INCORRECT.
+bool refuse_keyword(Reading& in, const char* start);
 
 bool read_path(Reading& in, BlockKind kind);  ///< after L, LP, C, CP, CT, CR
 /// After APPR or DEP and LT, LN, CT or LCT.

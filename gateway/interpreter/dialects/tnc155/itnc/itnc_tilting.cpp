@@ -32,7 +32,6 @@ bool is_plane(const Run& run) {
 bool is_tip_controlled(const Run& run) {
   return run.tilted.kind() == Tilt::Kind::TipControl;
 }
-
 bool fail_tilt(Run& run, std::string_view why) {
   return run.fail(ErrorCode::TiltFailed, why);
 }
@@ -368,18 +367,33 @@ bool change_tip_control(Run& run, const Block&) {
   return run.parts.itnc.tip == TipWords::Begin ? begin_tip_control(run) : end_tip_control(run);
 }
 
+/// One that tilts nothing, as CAM systems write it before M128: its coordinates are those without.
+bool is_plane_flat(const Run& run) {
+  constexpr double kSame = 1e-9;
+  const auto& turn = run.tilted.state().tilt.frame.at;
+  const auto& straight = Matrix3{}.at;
+  return std::ranges::equal(turn, straight,
+                            [](double a, double b) { return std::fabs(a - b) < kSame; });
+}
+
 bool begin_tip_control(Run& run) {
   if (!needs_option(run, "M128, FUNCTION TCPM")) return false;
   if (is_tip_controlled(run)) return true;
-  if (is_plane(run)) return fail_tilt(run, "M128 in a tilted plane");
+  if (is_plane(run) &&
+      (!is_plane_flat(run) || run.state.transformation.shift != run.state.plane_shift))
+    return fail_tilt(run, "M128 in a tilted plane");
   if (!check_tilt_begins(run, "M128")) return false;
   run.events();
+  if (is_plane(run)) end_tilt(run);
   begin_tilt(run, tilt_of(run, Tilt::Kind::TipControl));
   return true;
 }
 
+/// A plane that tilts nothing is in force again: the rotary axes go back before its coordinates do.
 bool end_tip_control(Run& run) {
-  if (is_tip_controlled(run)) end_tilt(run);
+  if (!is_tip_controlled(run)) return true;
+  end_tilt(run);
+  if (run.state.plane_pose) begin_tilt(run, tilt_of(run, Tilt::Kind::Plane));
   return true;
 }
 
