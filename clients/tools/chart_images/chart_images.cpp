@@ -1,10 +1,9 @@
 #include "clients/tools/chart_images/chart_images.hpp"
 
-#include <cairo-pdf.h>
-#include <cairo.h>
 #include <memory>
 #include <numbers>
 
+#include "clients/tools/chart_images/cairo_library.hpp"
 #include "clients/tools/charts/pictures.hpp"
 #include "clients/tools/charts/text.hpp"
 
@@ -17,22 +16,17 @@ using charts::Dash;
 using charts::Pen;
 using charts::Point;
 
-struct SurfaceDeleter {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-};
-struct ContextDeleter {
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, SurfaceDeleter>;
-using Context = std::unique_ptr<cairo_t, ContextDeleter>;
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 class CairoCanvas final : public charts::Canvas {
  public:
-  CairoCanvas(cairo_t* context, const Size& size) : cairo_(context), size_(size) {
-    cairo_select_font_face(cairo_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                           CAIRO_FONT_WEIGHT_NORMAL);
+  CairoCanvas(const Cairo& cairo, cairo_t* context, const Size& size)
+      : cairo_(cairo), context_(context), size_(size) {
+    cairo_.select_font_face(context_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                            CAIRO_FONT_WEIGHT_NORMAL);
     set_color(charts::kWhite);
-    cairo_paint(cairo_);
+    cairo_.paint(context_);
   }
 
   double width() const override { return size_.width; }
@@ -45,55 +39,56 @@ class CairoCanvas final : public charts::Canvas {
   }
   void polygon(std::span<const Point> points, Color fill) override {
     path(points);
-    cairo_close_path(cairo_);
+    cairo_.close_path(context_);
     set_color(fill);
-    cairo_fill(cairo_);
+    cairo_.fill(context_);
   }
   void circle(Point center, double radius, Color fill, const Pen& pen) override {
-    cairo_new_path(cairo_);
-    cairo_arc(cairo_, center.x, center.y, radius, 0, 2 * std::numbers::pi);
+    cairo_.new_path(context_);
+    cairo_.arc(context_, center.x, center.y, radius, 0, 2 * std::numbers::pi);
     set_color(fill);
-    cairo_fill_preserve(cairo_);
+    cairo_.fill_preserve(context_);
     stroke(pen);
   }
   void text(Point at, std::string_view text, const charts::TextStyle& style) override {
     const std::string cleaned = charts::clean_text(text);
-    cairo_select_font_face(cairo_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                           style.is_bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo_, style.size);
+    cairo_.select_font_face(context_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                            style.is_bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_.set_font_size(context_, style.size);
     cairo_text_extents_t extents{};
-    cairo_text_extents(cairo_, cleaned.c_str(), &extents);
+    cairo_.text_extents(context_, cleaned.c_str(), &extents);
     const double part = style.anchor == Anchor::Start    ? 0
                         : style.anchor == Anchor::Middle ? 0.5
                                                          : 1;
-    cairo_save(cairo_);
-    cairo_translate(cairo_, at.x, at.y);
-    if (style.is_upward) cairo_rotate(cairo_, -std::numbers::pi / 2);
-    cairo_move_to(cairo_, -part * extents.x_advance, 0);
+    cairo_.save(context_);
+    cairo_.translate(context_, at.x, at.y);
+    if (style.is_upward) cairo_.rotate(context_, -std::numbers::pi / 2);
+    cairo_.move_to(context_, -part * extents.x_advance, 0);
     set_color(style.color);
-    cairo_show_text(cairo_, cleaned.c_str());
-    cairo_restore(cairo_);
+    cairo_.show_text(context_, cleaned.c_str());
+    cairo_.restore(context_);
   }
 
  private:
   void set_color(Color color) {
-    cairo_set_source_rgb(cairo_, color.red / 255.0, color.green / 255.0, color.blue / 255.0);
+    cairo_.set_source_rgb(context_, color.red / 255.0, color.green / 255.0, color.blue / 255.0);
   }
   void path(std::span<const Point> points) {
-    cairo_new_path(cairo_);
-    for (const Point& point : points) cairo_line_to(cairo_, point.x, point.y);
+    cairo_.new_path(context_);
+    for (const Point& point : points) cairo_.line_to(context_, point.x, point.y);
   }
   void stroke(const Pen& pen) {
     constexpr double kDashed[]{6, 4}, kDotted[]{2, 3};
-    cairo_set_dash(cairo_, pen.dash == Dash::Dotted ? kDotted : kDashed,
-                   pen.dash == Dash::Solid ? 0 : 2, 0);
-    cairo_set_line_width(cairo_, pen.width);
-    cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
+    cairo_.set_dash(context_, pen.dash == Dash::Dotted ? kDotted : kDashed,
+                    pen.dash == Dash::Solid ? 0 : 2, 0);
+    cairo_.set_line_width(context_, pen.width);
+    cairo_.set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
     set_color(pen.color);
-    cairo_stroke(cairo_);
+    cairo_.stroke(context_);
   }
 
-  cairo_t* cairo_;
+  const Cairo& cairo_;
+  cairo_t* context_;
   Size size_;
 };
 
@@ -113,46 +108,55 @@ Result<void> check_size(const Size& size) {
               size.height, size.scale, charts::kMinWidth, charts::kMinHeight, charts::kMaxSide);
 }
 
-Result<void> check_status(cairo_status_t status) {
+Result<void> check_status(const Cairo& cairo, cairo_status_t status) {
   if (status == CAIRO_STATUS_SUCCESS) return {};
-  return fail(Errc::Io, "cairo: {}", cairo_status_to_string(status));
+  return fail(Errc::Io, "cairo: {}", cairo.status_to_string(status));
 }
 
 /// Draws on the surface and reports what cairo noted meanwhile.
-Result<void> draw_on(cairo_surface_t* surface, const Size& size, double scale,
+Result<void> draw_on(const Cairo& cairo, cairo_surface_t* surface, const Size& size, double scale,
                      const Drawing& draw) {
-  const Context context(cairo_create(surface));
-  cairo_scale(context.get(), scale, scale);
-  CairoCanvas canvas(context.get(), size);
+  const Context context(cairo.create(surface), cairo.destroy);
+  cairo.scale(context.get(), scale, scale);
+  CairoCanvas canvas(cairo, context.get(), size);
   if (auto drawn = draw(canvas); !drawn) return drawn;
-  return check_status(cairo_status(context.get()));
+  return check_status(cairo, cairo.status(context.get()));
 }
 
 }  // namespace
 
 Result<std::string> draw_png(const Size& size, const Drawing& draw) {
   if (auto good = check_size(size); !good) return fail(good.error());
-  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
-                                                   static_cast<int>(size.width * size.scale),
-                                                   static_cast<int>(size.height * size.scale)));
-  if (auto drawn = draw_on(surface.get(), size, size.scale, draw); !drawn)
+  const auto loaded = load_cairo();
+  if (!loaded) return fail(loaded.error());
+  const Cairo& cairo = **loaded;
+  const Surface surface(
+      cairo.image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(size.width * size.scale),
+                                 static_cast<int>(size.height * size.scale)),
+      cairo.surface_destroy);
+  if (auto drawn = draw_on(cairo, surface.get(), size, size.scale, draw); !drawn)
     return fail(drawn.error());
   std::string png;
-  const auto written = cairo_surface_write_to_png_stream(surface.get(), append, &png);
-  if (auto good = check_status(written); !good) return fail(good.error());
+  const auto written = cairo.surface_write_to_png_stream(surface.get(), append, &png);
+  if (auto good = check_status(cairo, written); !good) return fail(good.error());
   return png;
 }
 
 Result<std::string> draw_pdf(const Size& size, const Drawing& draw) {
   if (auto good = check_size(size); !good) return fail(good.error());
+  const auto loaded = load_cairo();
+  if (!loaded) return fail(loaded.error());
+  const Cairo& cairo = **loaded;
   constexpr double kPointsPerUnit = 72.0 / 96;
   std::string pdf;
-  const Surface surface(cairo_pdf_surface_create_for_stream(
-      append, &pdf, size.width * kPointsPerUnit, size.height * kPointsPerUnit));
-  if (auto drawn = draw_on(surface.get(), size, kPointsPerUnit, draw); !drawn)
+  const Surface surface(
+      cairo.pdf_surface_create_for_stream(append, &pdf, size.width * kPointsPerUnit,
+                                          size.height * kPointsPerUnit),
+      cairo.surface_destroy);
+  if (auto drawn = draw_on(cairo, surface.get(), size, kPointsPerUnit, draw); !drawn)
     return fail(drawn.error());
-  cairo_surface_finish(surface.get());
-  if (auto good = check_status(cairo_surface_status(surface.get())); !good)
+  cairo.surface_finish(surface.get());
+  if (auto good = check_status(cairo, cairo.surface_status(surface.get())); !good)
     return fail(good.error());
   return pdf;
 }

@@ -1,10 +1,19 @@
 #include "clients/tools/chart_images/chart_images.hpp"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <string>
 
 namespace dripline::chart_images {
 namespace {
+
+bool is_cairo_loaded() {
+  void* library = dlopen("libcairo.so.2", RTLD_LAZY | RTLD_NOLOAD);
+  if (library == nullptr) return false;
+  dlclose(library);
+  return true;
+}
+const bool kIsLoadedAtStart = is_cairo_loaded();
 
 Result<void> draw_something(charts::Canvas& canvas) {
   canvas.text({20, 40}, "\xC3\x98 40 H7 \xFF", {14, charts::Anchor::Start, true});
@@ -26,6 +35,12 @@ TEST(ChartImages, PngHasTheScaledSize) {
   EXPECT_TRUE(png->starts_with("\x89PNG"));
   EXPECT_EQ(big_endian(*png, 16), 800U);
   EXPECT_EQ(big_endian(*png, 20), 600U);
+}
+
+TEST(ChartImages, LoadCairoWithTheFirstPicture) {
+  EXPECT_FALSE(kIsLoadedAtStart);
+  ASSERT_TRUE(draw_png({400, 300, 1}, draw_something));
+  EXPECT_TRUE(is_cairo_loaded());
 }
 
 TEST(ChartImages, PdfIsOne) {
