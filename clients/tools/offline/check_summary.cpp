@@ -45,21 +45,29 @@ std::uint64_t CheckSummary::first_open() const {
   return clock_ ? std::min(clock_->first_open(), ended_blocks_) : ended_blocks_;
 }
 
-void CheckSummary::extend(Axis axis, double value) {
+inline void CheckSummary::extend(Axis axis, double value) {
   auto& extent = summary_.extents[static_cast<std::size_t>(axis)];
-  if (!extent) {
+  if (!extent) [[unlikely]] {
     extent = AxisExtent{value, value};
-  } else {
-    extent->least = std::min(extent->least, value);
-    extent->most = std::max(extent->most, value);
+  } else if (value < extent->least) {
+    extent->least = value;
+  } else if (value > extent->most) {
+    extent->most = value;
   }
+}
+
+/// Every move comes here: unrolled, an axis that has not moved costs one test of a bit.
+template <std::size_t... kIndexes>
+inline void CheckSummary::extend_to(const Position& to, std::index_sequence<kIndexes...> /*axes*/) {
+  const auto extend_one = [&](Axis axis) {
+    if (to.has(axis)) extend(axis, to.raw(axis));
+  };
+  (extend_one(kAllAxes[kIndexes]), ...);
 }
 
 void CheckSummary::move_to(const Position& to) {
   ++summary_.moves;
-  for (const Axis axis : kAllAxes) {
-    if (to.has(axis)) extend(axis, to.raw(axis));
-  }
+  extend_to(to, std::make_index_sequence<kAxisCount>{});
   last_ = to;
 }
 

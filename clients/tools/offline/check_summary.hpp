@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "clients/tools/offline/motion_clock.hpp"
@@ -89,7 +90,7 @@ class CheckSummary final : public EventSink {
  private:
   void move_to(const Position& to);
   struct Stretch {
-    Position to;
+    const Position& to;
     Length length;
     const Arc* arc = nullptr;
     bool rests = false;
@@ -99,6 +100,8 @@ class CheckSummary final : public EventSink {
   void pass(const Stretch& stretch, double nominal_seconds);
   TimedMove timed(const Stretch& stretch) const;
   void add_seconds(std::uint64_t block, double seconds);
+  template <std::size_t... kIndexes>
+  void extend_to(const Position& to, std::index_sequence<kIndexes...> axes);
   void extend(Axis axis, double value);
   Length radius_of(const Arc& arc) const;
   bool has_reached(const Arc& arc, Length radius) const;

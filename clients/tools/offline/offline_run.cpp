@@ -14,9 +14,13 @@ namespace offline_parts {  // members of OfflineRun::Parts
 constexpr std::uint64_t kStride = 65'536;
 constexpr LocalTime kDefaultTime{2000, 1, 1, 0, 0, 0};
 
-class Diagnostics final : public EventSink {
+/// What a run looks at itself of the events that it hands on.
+class Diagnostics final : public EventFilter {
  public:
+  using EventFilter::EventFilter;
+
   void on_block_end(const Origin& origin) override {
+    out().on_block_end(origin);
     if (origin.program >= furthest_.size()) furthest_.resize(origin.program + std::size_t{1});
     std::uint64_t& furthest = furthest_[origin.program];
     if (origin.offset >= furthest) [[likely]] {
@@ -25,9 +29,16 @@ class Diagnostics final : public EventSink {
       ++repeated;
     }
   }
-  void on_warning(const Warning&) override { ++warnings; }
-  void on_dwell(const Dwell& event) override { dwelt += event.seconds; }
+  void on_warning(const Warning& event) override {
+    out().on_warning(event);
+    ++warnings;
+  }
+  void on_dwell(const Dwell& event) override {
+    out().on_dwell(event);
+    dwelt += event.seconds;
+  }
   void on_alarm(const Alarm& event) override {
+    out().on_alarm(event);
     alarm = event.diagnostic;
     program = event.origin.program;
   }
@@ -117,15 +128,14 @@ Result<void> answer_question(Interpreter& interpreter, SetupAnswers& answers) {
 struct OfflineRun::Parts {
   Parts(const Setup& setup, std::vector<std::int64_t> pins, EventSink& sink, OfflineLimits bounds)
       : limits(bounds),
-        tee(sink, diagnostics),
-        gate(tee, bounds.stop.value_or(StopPoint{})),
+        diagnostics(sink),
+        gate(diagnostics, bounds.stop.value_or(StopPoint{})),
         answers(setup, std::move(pins), diagnostics) {}
 
   Result<bool> step(std::uint64_t max_blocks);
 
   OfflineLimits limits;
   offline_parts::Diagnostics diagnostics;
-  EventTee tee;
   StopGate gate;
   offline_parts::SetupAnswers answers;
   std::unique_ptr<Interpreter> interpreter;
@@ -145,7 +155,7 @@ Result<bool> OfflineRun::Parts::step(std::uint64_t max_blocks) {
   if (has_ended && limits.reads_on && !gate.has_stopped() && interpreter->read_on()) return false;
   if (gate.has_stopped() || has_ended || state == StepState::Alarmed) return true;
   if (diagnostics.repeated > limits.max_repeated_blocks) {
-    offline_parts::report_endless(*interpreter, diagnostics.repeated, tee);
+    offline_parts::report_endless(*interpreter, diagnostics.repeated, diagnostics);
     return true;
   }
   if (state == StepState::NeedsText) {
@@ -173,7 +183,7 @@ Result<OfflineRun> OfflineRun::begin(const Dialect& dialect, const Setup& setup,
   auto pins = setup.control.integers("pins");
   if (!pins) return fail(pins.error());
   auto parts = std::make_unique<Parts>(setup, *std::move(pins), sink, limits);
-  EventSink& first = limits.stop ? static_cast<EventSink&>(parts->gate) : parts->tee;
+  EventSink& first = limits.stop ? static_cast<EventSink&>(parts->gate) : parts->diagnostics;
   auto interpreter = dialect.make(setup, source, first);
   if (!interpreter) return fail(interpreter.error());
   parts->interpreter = *std::move(interpreter);
