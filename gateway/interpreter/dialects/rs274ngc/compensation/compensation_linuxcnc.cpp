@@ -16,9 +16,17 @@ namespace {
 
 constexpr double kStraightOn = 0.05;  ///< radians
 
+/// As to_machine, but of the plane alone: each corner needs several points.
 PlaneVector machine_point(const Run& run, PlaneVector program) {
-  const PlaneAxes plane = axes_of(run.state.modes.plane);
-  Axes axes = run.state.position;
+  const State& state = run.state;
+  const PlaneAxes plane = axes_of(state.modes.plane);
+  if (state.rotation == 0) [[likely]] {
+    const auto shifted = [&](Axis axis, double value) {
+      return value + state.g92[index_of(axis)] + state.system_offset[index_of(axis)];
+    };
+    return {shifted(plane.first, program.first), shifted(plane.second, program.second)};
+  }
+  Axes axes = state.position;
   axes[index_of(plane.first)] = program.first;
   axes[index_of(plane.second)] = program.second;
   return in_plane(to_machine(run, axes), plane);
@@ -78,12 +86,12 @@ Meeting meet(const OffsetCurve& a, const OffsetCurve& b) {
 }
 
 /// The held move's curve: an arc's circle, or the line it was programmed along.
-OffsetCurve held_curve(const Run& run, PlaneVector corner, PlaneVector tool) {
+OffsetCurve held_curve(const Run& run, PlaneVector tool, double old_normal) {
   if (const auto* arc = std::get_if<Arc>(&run.held.events().front())) {
     const PlaneVector center{arc->center_first.mm(), arc->center_second.mm()};
     return {true, center, 0, distance(center, tool)};
   }
-  return {false, tool, direction(corner, tool) + kQuarter, 0};
+  return {false, tool, old_normal + kQuarter, 0};
 }
 
 /// Ends the held arc at `end`; false when it would then be longer than it was programmed, for its
@@ -100,24 +108,19 @@ bool end_arc(const Run& run, Arc& arc, PlaneVector end) {
   return true;
 }
 
-bool is_reversed(const Run& run, PlaneVector end, double travel) {
-  const PlaneVector start = plane_point(run, run.held.start());
-  return (end.first - start.first) * std::cos(travel) +
-             (end.second - start.second) * std::sin(travel) <
-         0;
+bool is_reversed(const Run& run, PlaneVector end, PlaneVector travel) {
+  return dot(end - plane_point(run, run.held.start()), travel) < 0;
 }
 
 /// A corner may only shorten the move before it. Where the path doubles straight back into an arc,
 /// the curves may meet far past the end instead.
-bool is_past(PlaneVector end, PlaneVector corner, double travel) {
+bool is_past(PlaneVector end, PlaneVector corner, PlaneVector travel) {
   constexpr double kSlack = 0.0254;  // mm
-  return (corner.first - end.first) * std::cos(travel) +
-             (corner.second - end.second) * std::sin(travel) >
-         kSlack;
+  return dot(corner - end, travel) > kSlack;
 }
 
 /// Ends the held move at `end` (machine) and lets it go with all that came after it.
-bool finish_held(Run& run, PlaneVector end, double travel) {
+bool finish_held(Run& run, PlaneVector end, PlaneVector travel) {
   if (run.held.empty()) return true;
   auto& events = run.held.events();
   if (auto* arc = std::get_if<Arc>(&events.front())) {
@@ -142,9 +145,10 @@ enum class Corner : std::uint8_t { StraightOn, Convex, Concave };
 struct Entry {
   PlaneVector corner;  ///< machine coordinates
   PlaneVector tool;
-  double normal = 0;              ///< of the tool at the start of the next move
-  std::optional<Turn> next_turn;  ///< of an arc
-  const Target* next = nullptr;   ///< not at the end of compensation
+  double normal = 0;                            ///< of the tool at the start of the next move
+  std::optional<Turn> next_turn;                ///< of an arc
+  const Target* next = nullptr;                 ///< not at the end of compensation
+  double old_normal = direction(corner, tool);  ///< of the tool at the end of the held move
 };
 
 /// A path straight back leads into a valley, not around a point, where the arc beside it (the next
@@ -156,17 +160,17 @@ bool turns_back_inside(const Run& run, std::optional<Turn> next_turn) {
 }
 
 Corner corner_of(const Run& run, const Entry& entry) {
-  const double old_normal = direction(entry.corner, entry.tool);
-  const double turn = turned_into(side_sign(run) * (old_normal - entry.normal), -kQuarter);
+  const double turn = turned_into(side_sign(run) * (entry.old_normal - entry.normal), -kQuarter);
   if (turn < -kStraightOn || turn > Angle::kPi + kStraightOn) return Corner::Concave;
   if (turn > Angle::kPi - kStraightOn && turns_back_inside(run, entry.next_turn))
     return Corner::Concave;
   return turn > kStraightOn ? Corner::Convex : Corner::StraightOn;
 }
 
-/// Direction in which the held move arrives at the corner.
-double travel_of(const Run& run, const Entry& entry) {
-  return direction(entry.corner, entry.tool) - side_sign(run) * kQuarter;
+/// Direction in which the held move arrives at the corner, of length 1.
+PlaneVector travel_of(const Run& run, const Entry& entry) {
+  const double angle = entry.old_normal - side_sign(run) * kQuarter;
+  return {std::cos(angle), std::sin(angle)};
 }
 
 /// About the programmed corner, at the height where the held moves end; not held itself.
@@ -215,7 +219,7 @@ PlaneVector leaving_point(const Run& run, const Entry& entry, const OffsetCurve&
 
 /// Makes the corner between the held move and the next, whose offset curve is `next`.
 bool join(Run& run, const Entry& entry, const OffsetCurve& next, bool is_rapid, const Feed& feed) {
-  const double travel = travel_of(run, entry);
+  const PlaneVector travel = travel_of(run, entry);
   switch (corner_of(run, entry)) {
     case Corner::StraightOn:
       return finish_held(run, entry.tool, travel);
@@ -228,7 +232,7 @@ bool join(Run& run, const Entry& entry, const OffsetCurve& next, bool is_rapid, 
     case Corner::Concave:
       break;
   }
-  const Meeting meeting = meet(held_curve(run, entry.corner, entry.tool), next);
+  const Meeting meeting = meet(held_curve(run, entry.tool, entry.old_normal), next);
   if (meeting.count == 0) {
     return run.fail(next.is_circle ? ErrorCode::CompCorner : ErrorCode::CompZeroCorner, 0);
   }
@@ -332,12 +336,13 @@ bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& fee
     move_to(run, moved_to(run, target, tool_point(run)), is_rapid, feed);
     return true;
   }
-  const double normal = direction(start, end) + side_sign(run) * kQuarter;
+  const double heading = direction(start, end);
+  const double normal = heading + side_sign(run) * kQuarter;
   const PlaneVector stop = along(end, normal, compensation.radius);
   const double turned = run.state.rotation * (Angle::kPi / 180);
   const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)), normal + turned,
                     std::nullopt, &target};
-  const OffsetCurve next{false, machine_point(run, stop), direction(start, end) + turned, 0};
+  const OffsetCurve next{false, machine_point(run, stop), heading + turned, 0};
   if (!run.held.empty() && !join(run, entry, next, is_rapid, feed)) return false;
   Hold(run).line(moved_to(run, target, stop), is_rapid, feed);
   programmed_at(run, end);
