@@ -191,8 +191,9 @@ bool arc_move(Run& run, bool is_clockwise) {
   run.state.passes = 0;
   const auto normal = index_of(axes.normal);
   const double turned = sweep_of(center, start, end, turn) + 360 * (full_circles - 1);
-  note_speed(run, std::hypot(distance(center, start) * turned * (Angle::kPi / 180),
-                             target.to[normal] - state.position[normal]));
+  if (state.modes.feed == FeedMode::InverseTime) [[unlikely]]
+    note_speed(run, std::hypot(distance(center, start) * turned * (Angle::kPi / 180),
+                               target.to[normal] - state.position[normal]));
   if (is_compensated) return compensated_arc(run, target, center, turn, full_circles, feed);
   if (compensation.was_on) return run.fail(ErrorCode::CompExit, 0);
   target.named = static_cast<AxisBits>(target.named | bit_of(axes.first) | bit_of(axes.second));

@@ -229,31 +229,9 @@ bool Flow::look_up_file() {
 }
 
 void Flow::reset() {
+  heads_.fill({});
   places_.clear();
   label_index_.clear();
-}
-
-bool Flow::execute(const char* at) {
-  OwordHead head;
-  if (!read_oword(run_, at, head)) return false;
-  if (head.word == Oword::Alone) return end_of_oword(run_, head.after);
-  struct Row {
-    Oword word;
-    bool (Flow::*execute)(const OwordHead&);
-  };
-  static constexpr std::array kRows{
-      Row{Oword::Sub, &Flow::begin_sub},      Row{Oword::EndSub, &Flow::end_sub},
-      Row{Oword::Return, &Flow::leave_sub},   Row{Oword::Call, &Flow::call},
-      Row{Oword::If, &Flow::begin_if},        Row{Oword::ElseIf, &Flow::next_branch},
-      Row{Oword::Else, &Flow::next_branch},   Row{Oword::EndIf, &Flow::end_if},
-      Row{Oword::While, &Flow::begin_while},  Row{Oword::EndWhile, &Flow::end_loop},
-      Row{Oword::Do, &Flow::begin_do},        Row{Oword::Repeat, &Flow::begin_repeat},
-      Row{Oword::EndRepeat, &Flow::end_loop}, Row{Oword::Break, &Flow::leave_loop},
-      Row{Oword::Continue, &Flow::leave_loop}};
-  for (const Row& row : kRows) {
-    if (row.word == head.word) return (this->*row.execute)(head);
-  }
-  return refuse(ErrorCode::OwordUnknown, head);
 }
 
 // Loops and conditions.

@@ -32,6 +32,10 @@ class Flow {
   void reset();
 
  private:
+  using Handler = bool (Flow::*)(const OwordHead&);
+  static Handler handler_of(Oword word);
+  bool read_head(const char* at, OwordHead& head, Handler& handler);
+
   bool begin_sub(const OwordHead& head);
   bool end_sub(const OwordHead& head);
   bool leave_sub(const OwordHead& head);
@@ -76,7 +80,20 @@ class Flow {
   };
   static constexpr std::size_t kMaxPlaces = 4096;
 
+  /// How the O word of a line reads, of the line that had its slot last: a loop's lines are read
+  /// once and looked up by their place from the second pass on.
+  struct KnownHead {
+    std::uint64_t offset = 0;
+    ProgramIndex program = kMainProgram;
+    std::uint32_t after = 0;  ///< OwordHead::after in the line; 0: nothing is known
+    Label label;
+    Oword word = Oword::None;
+    Handler handler = nullptr;
+  };
+  static constexpr std::size_t kKnownHeads = 256;
+
   Run& run_;
+  std::array<KnownHead, kKnownHeads> heads_{};                  ///< only a cache, by offset
   std::unordered_map<TextPlace, TextPlace, PlaceHash> places_;  ///< only a cache
   std::unordered_map<std::pair<std::int64_t, std::int64_t>, std::size_t, LabelHash> label_index_;
   std::array<double, kArguments> arguments_{};

@@ -11,6 +11,14 @@ namespace dripline::interpreter::rs274ngc {
 
 /// `index` is whole, but may be any number.
 bool read_parameter(Run& run, double index, std::uint32_t column, double& value);
+/// Inline for those of the control's memory, which are nearly all that programs read.
+inline bool read_parameter(Run& run, int index, std::uint32_t column, double& value) {
+  if (index >= 1 && index < kFirstReadOnly) [[likely]] {
+    value = run.parameters[static_cast<std::size_t>(index)];
+    return true;
+  }
+  return read_parameter(run, static_cast<double>(index), column, value);
+}
 /// Whether the program may set it.
 bool check_settable(Run& run, double index, std::uint32_t column);
 

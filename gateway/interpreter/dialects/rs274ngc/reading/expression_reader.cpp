@@ -24,10 +24,6 @@ constexpr double kWholeWithin = 0.0001;
 /// Comparisons of the later language.
 constexpr double kSameWithin = 1e-6;
 
-bool is_number_start(char c) {
-  return is_digit(c) || c == '.' || c == '-' || c == '+';
-}
-
 /// The walk over one expression and all that is inside it.
 class Terms {
  public:
@@ -185,7 +181,7 @@ bool Terms::operand(double& value) {
   at_ = skip_blanks(at_);
   const char c = *at_;
   if (is_digit(c) || c == '.') [[likely]] {
-    return take_small_number(at_, value) || read_number_at(run_, at_, value);
+    return read_number_at(run_, at_, value);
   }
   if (depth_ >= kMaxDepth) return run_.fail(ErrorCode::NestedTooDeep, run_.column(at_));
   ++depth_;
@@ -221,10 +217,9 @@ bool Terms::parameter(double& value) {
     if (!read_name(run_, at_, run_.scratch)) return false;
     return read_named(run_, run_.scratch, run_.column(start), value);
   }
+  if (int small = 0; take_small_number(at_, small)) [[likely]]
+    return read_parameter(run_, small, run_.column(start), value);
   double index = 0;
-  if (take_small_number(at_, index)) {
-    return read_parameter(run_, index, run_.column(start), value);
-  }
   if (!operand(index)) return false;
   const double whole = std::round(index);
   if (!(std::fabs(index - whole) <= kWholeWithin)) {
@@ -296,22 +291,9 @@ bool Terms::function(double& value) {
 
 }  // namespace
 
-bool take_word(const char*& at, const char* word) {
-  const char* s = at;
-  for (const char* w = word; *w != '\0'; ++w) {
-    if (w != word) s = skip_blanks(s);
-    if (upper(*s) != *w) return false;
-    ++s;
-  }
-  at = s;
-  return true;
-}
-
-bool read_value(Run& run, const char*& at, double& value) {
-  at = skip_blanks(at);
-  const char c = *at;
-  if (is_number_start(c)) [[likely]] {
-    const char* after_sign = is_digit(c) || c == '.' ? at : skip_blanks(at + 1);
+bool read_computed_value(Run& run, const char*& at, double& value) {
+  if (*at == '-' || *at == '+') {
+    const char* after_sign = skip_blanks(at + 1);
     if (is_digit(*after_sign) || *after_sign == '.') return read_number_at(run, at, value);
     if (!run.is_linuxcnc()) return run.fail(ErrorCode::NoDigits, run.column(at));
   }
@@ -322,11 +304,9 @@ bool read_integer(Run& run, const char*& at, int& value) {
   constexpr double kMax = 1e9;
   at = skip_blanks(at);
   const char* start = at;
-  double real = 0;
-  if (take_small_number(at, real)) [[likely]] {
-    value = static_cast<int>(real);
+  if (take_small_number(at, value)) [[likely]]
     return true;
-  }
+  double real = 0;
   if (!read_value(run, at, real)) return false;
   const double whole = std::round(real);
   if (!(std::fabs(real - whole) <= kWholeWithin) || !(std::fabs(whole) <= kMax)) {

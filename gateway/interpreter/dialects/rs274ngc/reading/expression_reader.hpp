@@ -8,8 +8,17 @@
 
 namespace dripline::interpreter::rs274ngc {
 
+/// One real value that is no plain number, or one with blanks after its sign.
+bool read_computed_value(Run& run, const char*& at, double& value);
+
 /// Reads one real value at `at`, which then moves after it.
-bool read_value(Run& run, const char*& at, double& value);
+inline bool read_value(Run& run, const char*& at, double& value) {
+  at = skip_blanks(at);
+  const char* digits = *at == '-' || *at == '+' ? at + 1 : at;
+  if (is_digit(*digits) || *digits == '.') [[likely]]
+    return read_number_at(run, at, value);
+  return read_computed_value(run, at, value);
+}
 /// One that must be within 0.0001 of a whole number.
 bool read_integer(Run& run, const char*& at, int& value);
 /// `[ ... ]`; `at` is on the bracket.
@@ -20,6 +29,16 @@ bool read_name(Run& run, const char*& at, std::string& name);
 
 /// Whether `word` (capitals) is at `at`, blanks between its letters allowed; then `at` moves
 /// after it.
-bool take_word(const char*& at, const char* word);
+inline bool take_word(const char*& at, const char* word) {
+  const char* s = at;
+  for (const char* w = word; *w != '\0'; ++w, ++s) {
+    if (upper(*s) == *w) continue;
+    if (w == word) return false;
+    s = skip_blanks(s);
+    if (upper(*s) != *w) return false;
+  }
+  at = s;
+  return true;
+}
 
 }  // namespace dripline::interpreter::rs274ngc

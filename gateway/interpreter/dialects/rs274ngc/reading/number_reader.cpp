@@ -3,13 +3,9 @@
 #include <charconv>
 #include <string>
 
-#include "gateway/interpreter/core/language/number.hpp"
-
 namespace dripline::interpreter::rs274ngc {
 
 namespace {
-
-constexpr NumberRules kNumberRules{.skip_blanks = true};
 
 /// More digits than the fast reader takes: nothing is wrong with them here.
 bool read_long_number(Run& run, const char*& at, double& value) {
@@ -31,21 +27,12 @@ bool read_long_number(Run& run, const char*& at, double& value) {
 
 }  // namespace
 
-bool read_number_at(Run& run, const char*& at, double& value) {
-  NumberText number;
-  const char* start = at;
-  // the line's end is no character of a number, so that no end need be given
-  const char* after = read_number<kNumberRules>(at, nullptr, number);
-  if (number.fault == NumberFault::None) [[likely]] {
-    value = number.value;
-    at = after;
-    return true;
+bool read_unusual_number(Run& run, const char*& at, NumberFault fault, double& value) {
+  if (fault == NumberFault::TooManyDigits) return read_long_number(run, at, value);
+  if (fault == NumberFault::SecondPoint) {
+    return run.fail(ErrorCode::BadNumber, run.column(at), "a second point");
   }
-  if (number.fault == NumberFault::TooManyDigits) return read_long_number(run, at, value);
-  if (number.fault == NumberFault::SecondPoint) {
-    return run.fail(ErrorCode::BadNumber, run.column(start), "a second point");
-  }
-  return run.fail(ErrorCode::NoDigits, run.column(start));
+  return run.fail(ErrorCode::NoDigits, run.column(at));
 }
 
 }  // namespace dripline::interpreter::rs274ngc
