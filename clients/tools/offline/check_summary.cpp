@@ -189,20 +189,20 @@ bool CheckSummary::has_reached(const Arc& arc, Length radius) const {
 void CheckSummary::extend_arc(const Arc& arc, Length radius) {
   if (has_reached(arc, radius)) return;
   constexpr double kFull = 360, kHalf = 180;
-  constexpr std::array<PlaneVector, 4> kQuarters{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   const PlaneAxes axes = axes_of(arc.plane);
   const PlaneVector center{arc.center_first.mm(), arc.center_second.mm()};
   const PlaneVector start = in_plane(last_, axes) - center, end = in_plane(arc.to, axes) - center;
   const double sense = arc.turn == Turn::Counterclockwise ? 1 : -1, sweep = arc.sweep.degrees();
-  for (const PlaneVector& quarter : kQuarters) {
-    const bool is_after_start = sense * cross(start, quarter) >= 0;
-    const bool is_before_end = sense * cross(quarter, end) >= 0;
-    const bool is_passed =
-        sweep < kHalf ? is_after_start && is_before_end : is_after_start || is_before_end;
-    if (!is_passed && sweep < kFull) continue;
-    if (quarter.first != 0) extend(axes.first, center.first + quarter.first * radius.mm());
-    if (quarter.second != 0) extend(axes.second, center.second + quarter.second * radius.mm());
-  }
+  // `after_start` and `before_end`: how far left of the start, and right of the end, seen from the
+  // center. Written out for the four: in a loop their zeros and ones would be multiplied with.
+  const auto passes = [&](double after_start, double before_end) {
+    const bool is_after = sense * after_start >= 0, is_before = sense * before_end >= 0;
+    return sweep >= kFull || (sweep < kHalf ? is_after && is_before : is_after || is_before);
+  };
+  if (passes(-start.second, end.second)) extend(axes.first, center.first + radius.mm());
+  if (passes(start.first, -end.first)) extend(axes.second, center.second + radius.mm());
+  if (passes(start.second, -end.second)) extend(axes.first, center.first - radius.mm());
+  if (passes(-start.first, end.first)) extend(axes.second, center.second - radius.mm());
 }
 
 Length CheckSummary::length_of(const Arc& arc, Length radius) const {

@@ -35,6 +35,9 @@ Rs274NgcInterpreter::Rs274NgcInterpreter(ControlOptions options, std::vector<Too
   run_.state.position = to_program(run_, values_of(run_.state.machine));
 }
 
+// What `run_block` calls for every line is inline, and used in this file alone: a call of one
+// costs as much as what it does.
+
 /// The search for the place that a block leads to belongs to the block: the state after it is the
 /// same whether the place was known or not.
 BlockOutcome Rs274NgcInterpreter::run_block() {
@@ -56,7 +59,7 @@ BlockOutcome Rs274NgcInterpreter::run_block() {
 }
 
 /// Makes the next line visible, its end readable.
-bool Rs274NgcInterpreter::load_line(LineState& outcome) {
+inline bool Rs274NgcInterpreter::load_line(LineState& outcome) {
   LineReader& reader = run_.reader;
   if (!(reader.place() == run_.state.at)) reader.seek(run_.state.at);
   SourceLine line;
@@ -79,7 +82,7 @@ bool Rs274NgcInterpreter::load_line(LineState& outcome) {
   return true;
 }
 
-BlockOutcome Rs274NgcInterpreter::run_line() {
+inline BlockOutcome Rs274NgcInterpreter::run_line() {
   Block& block = run_.block;
   if (block.stage == Stage::Start) [[likely]] {
     LineState line{};
@@ -173,7 +176,7 @@ bool Rs274NgcInterpreter::meet_percent(const char* at, bool& is_end) {
   return run_.fail(ErrorCode::BadCharacter, run_.column(at), "'%'");
 }
 
-bool Rs274NgcInterpreter::execute() {
+inline bool Rs274NgcInterpreter::execute() {
   State& state = run_.state;
   const char* at = skip_blanks(run_.line_begin);
   if (*at == kByteOrderMark.front() && run_.here.offset == 0) [[unlikely]] {
@@ -208,7 +211,7 @@ bool Rs274NgcInterpreter::execute_oword(const char* at) {
   return !is_contour_complete(run_.state) || make_turning(run_);
 }
 
-bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {
+inline bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {
   if (!read_items(run_, at) || !check_line(run_)) [[unlikely]]
     return false;
   if (is_skipped) [[unlikely]] {  // read, so that its errors are reported, and left out
@@ -221,7 +224,7 @@ bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {
   return finish_words();
 }
 
-bool Rs274NgcInterpreter::finish_words() {
+inline bool Rs274NgcInterpreter::finish_words() {
   if (!execute_line(run_)) [[unlikely]]
     return false;
   if (is_turning_cycle(run_.block.motion)) [[unlikely]]
@@ -230,7 +233,7 @@ bool Rs274NgcInterpreter::finish_words() {
   return stop < 98 || flow_.execute_fanuc(stop);
 }
 
-BlockOutcome Rs274NgcInterpreter::finish_line() {
+inline BlockOutcome Rs274NgcInterpreter::finish_line() {
   State& state = run_.state;
   if (state.phase == RunPhase::Ended) [[unlikely]] {
     run_.events().on_end({run_.origin, state.blocks + 1, run_.block.m(MGroup::Stop) == 30});

@@ -62,23 +62,26 @@ AddressSet axes_or_corners(const Run& run) {
   return run.options.axes | set_of("ACUW");
 }
 
-bool add_word(Run& run, char letter, const char* start, const char*& at) {
+bool add_word(Run& run, Address address, const char* start, const char*& at) {
   Words& words = run.block.words;
-  if (words.has(letter)) [[unlikely]] {
-    return run.fail(ErrorCode::DuplicateWord, run.column(start), fmt::format("{}", letter));
+  const AddressSet word = AddressSet{1} << address;
+  if (words.has_any(word)) [[unlikely]] {
+    return run.fail(ErrorCode::DuplicateWord, run.column(start),
+                    fmt::format("{}", letter_of(address)));
   }
   double value = 0;
   if (!read_value(run, at, value)) return false;
   constexpr AddressSet kChecked = set_of("DFHLPQST");
-  if ((set_of(letter) & kChecked) != 0) {
-    if (!check_value(run, letter, value, run.column(start))) return false;
-  } else if ((set_of(letter) & kAxisWords & ~axes_or_corners(run)) != 0) [[unlikely]] {
+  if ((word & kChecked) != 0) {
+    if (!check_value(run, letter_of(address), value, run.column(start))) return false;
+  } else if ((word & kAxisWords & ~axes_or_corners(run)) != 0) [[unlikely]] {
     if (run.options.ignores_missing_axes) return true;
-    return run.fail(ErrorCode::NoSuchAxis, run.column(start), fmt::format("{}", letter));
+    return run.fail(ErrorCode::NoSuchAxis, run.column(start),
+                    fmt::format("{}", letter_of(address)));
   }
-  if (letter == 'X' && run.state.modes.is_diameter) [[unlikely]]
+  if (address == address_of('X') && run.state.modes.is_diameter) [[unlikely]]
     value /= 2;
-  words.set(address_of(letter), value, run.column(start));
+  words.set(address, value, run.column(start));
   return true;
 }
 
@@ -246,7 +249,7 @@ bool read_other(Run& run, const char*& at) {
     case '^':
       if (!run.is_linuxcnc()) break;
       ++at;
-      return add_word(run, at[-1], at - 1, at);
+      return add_word(run, address_of(at[-1]), at - 1, at);
     default:
       break;
   }
@@ -260,11 +263,11 @@ bool read_items(Run& run, const char* at) {
   for (;;) {
     at = skip_blanks(at);
     const char c = upper(*at);
-    if (static_cast<unsigned char>(c - 'A') < 26) [[likely]] {
+    if (const auto address = static_cast<Address>(c - 'A'); address < 26) [[likely]] {
       const char* start = at;
       ++at;
-      if ((set_of(c) & letters) != 0) [[likely]] {
-        if (!add_word(run, c, start, at)) return false;
+      if ((AddressSet{1} << address & letters) != 0) [[likely]] {
+        if (!add_word(run, address, start, at)) return false;
       } else if (c == 'G') {
         if (!add_g(run, start, at)) return false;
       } else if (c == 'M') {

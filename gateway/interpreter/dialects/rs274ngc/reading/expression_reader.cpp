@@ -59,7 +59,9 @@ class Terms {
 
   Run& run_;
   const char*& at_;
-  const char* after_ = nullptr;
+  const char* after_ = nullptr;       ///< of the operator that was peeked at,
+  const char* peeked_at_ = nullptr;   ///< where it is,
+  Operator peeked_ = Operator::None;  ///< and which
   int depth_;
 };
 
@@ -161,7 +163,12 @@ Operator Terms::operator_here(const char* at) {
 Operator Terms::peek() {
   at_ = skip_blanks(at_);
   if (*at_ == ']') return Operator::None;
-  return operator_here(at_);
+  // One of a lower rank is seen again by every evaluation that it ends.
+  if (at_ != peeked_at_) {
+    peeked_at_ = at_;
+    peeked_ = operator_here(at_);
+  }
+  return peeked_;
 }
 
 bool Terms::bracketed(double& value) {
@@ -181,7 +188,10 @@ bool Terms::operand(double& value) {
   at_ = skip_blanks(at_);
   const char c = *at_;
   if (is_digit(c) || c == '.') [[likely]] {
-    return read_number_at(run_, at_, value);
+    int small = 0;  // as nearly all constants
+    if (!take_small_number(at_, small)) return read_number_at(run_, at_, value);
+    value = small;
+    return true;
   }
   if (depth_ >= kMaxDepth) return run_.fail(ErrorCode::NestedTooDeep, run_.column(at_));
   ++depth_;

@@ -26,8 +26,9 @@ inline bool take_small_number(const char*& at, int& value) {
 /// What the fast reader has refused: a number of many digits, or an error.
 [[gnu::cold]] bool read_unusual_number(Run& run, const char*& at, NumberFault fault, double& value);
 
-/// Any number at `at`, which then moves after it. Inline: programs are numbers more than anything.
-inline bool read_number_at(Run& run, const char*& at, double& value) {
+/// Any number at `at`, which then moves after it. Always inline: programs are numbers more than
+/// anything, and a call costs as much as three digits.
+[[gnu::always_inline]] inline bool read_number_at(Run& run, const char*& at, double& value) {
   constexpr NumberRules kRules{.skip_blanks = true};
   NumberText number;
   // the line's end is no character of a number, so that no end need be given
