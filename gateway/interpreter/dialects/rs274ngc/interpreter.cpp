@@ -291,6 +291,7 @@ void Rs274NgcInterpreter::after_restore() {
   run_.block.clear();
   run_.answer.reset();
   run_.signals.clear();
+  run_.expressions.clear();
   flow_.reset();
 }
 

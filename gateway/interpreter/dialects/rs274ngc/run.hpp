@@ -13,6 +13,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/memory/names.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/options.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/block.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/known_expressions.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/state.hpp"
 
 namespace dripline::interpreter::rs274ngc {
@@ -85,6 +86,7 @@ struct Run : BlockRun {
   std::vector<Signal>
       signals;  ///< HAL pins that the line has asked for: it is read again with them
   std::string scratch;
+  KnownExpressions expressions;
 
  private:
   [[gnu::cold]] void deliver_header();

@@ -8,6 +8,7 @@
 #include "gateway/interpreter/core/language/expression.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/functions.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/known_expressions.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter::rs274ngc {
@@ -17,23 +18,26 @@ namespace {
 using language::Computed;
 using language::MathFault;
 using language::Operator;
+using Kind = KnownExpression::Step::Kind;
 
 constexpr int kMaxDepth = 64;
 /// A value this near to a whole number is one (NIST 3.3).
 constexpr double kWholeWithin = 0.0001;
-/// Comparisons of the later language.
-constexpr double kSameWithin = 1e-6;
 
 /// The walk over one expression and all that is inside it.
 class Terms {
  public:
-  Terms(Run& run, const char*& at, int depth) : run_(run), at_(at), depth_(depth) {}
+  /// Its steps are put down in `known`.
+  Terms(Run& run, const char*& at, KnownExpression& known) : run_(run), at_(at), known_(known) {}
 
   bool operand(double& value);
   Operator peek();
   void take() { at_ = after_; }
   int rank(Operator op) const;
-  Computed apply(Operator op, double left, double right) const;
+  Computed apply(Operator op, double left, double right) {
+    known_.add({.kind = Kind::Operate, .op = op});
+    return computed(op, left, right);
+  }
   bool fault(MathFault fault) { return run_.fail(code_of(fault), run_.column(at_)); }
 
   bool bracketed(double& value);
@@ -59,10 +63,11 @@ class Terms {
 
   Run& run_;
   const char*& at_;
+  KnownExpression& known_;
   const char* after_ = nullptr;       ///< of the operator that was peeked at,
   const char* peeked_at_ = nullptr;   ///< where it is,
   Operator peeked_ = Operator::None;  ///< and which
-  int depth_;
+  int depth_ = 0;
 };
 
 int Terms::rank(Operator op) const {
@@ -81,45 +86,6 @@ int Terms::rank(Operator op) const {
       return run_.is_linuxcnc() ? 2 : 4;
     default:
       return language::is_comparison(op) ? 3 : 4;
-  }
-}
-
-Computed Terms::apply(Operator op, double left, double right) const {
-  const auto claim = [](bool holds) { return Computed{holds ? 1.0 : 0.0, MathFault::None}; };
-  const auto finite = [](double value) {
-    return Computed{value, std::isfinite(value) ? MathFault::None : MathFault::Overflow};
-  };
-  switch (op) {
-    case Operator::Add:
-      return finite(left + right);
-    case Operator::Subtract:
-      return finite(left - right);
-    case Operator::Multiply:
-      return finite(left * right);
-    case Operator::Power: {
-      if (left < 0 && right != std::floor(right)) return {0, MathFault::PowerBase};
-      const double power = std::pow(left, right);
-      return {power, std::isfinite(power) ? MathFault::None : MathFault::Overflow};
-    }
-    case Operator::Modulo: {
-      const double rest = std::fmod(left, right);
-      if (std::isnan(rest)) return {0, MathFault::Undefined};
-      return {rest < 0 ? rest + std::fabs(right) : rest, MathFault::None};
-    }
-    case Operator::Equal:
-      return claim(std::fabs(left - right) < kSameWithin);
-    case Operator::NotEqual:
-      return claim(std::fabs(left - right) >= kSameWithin);
-    case Operator::Less:
-      return claim(left < right);
-    case Operator::LessOrEqual:
-      return claim(left <= right || std::fabs(left - right) < kSameWithin);
-    case Operator::Greater:
-      return claim(left > right);
-    case Operator::GreaterOrEqual:
-      return claim(left >= right || std::fabs(left - right) < kSameWithin);
-    default:
-      return language::apply(op, left, right);
   }
 }
 
@@ -189,8 +155,12 @@ bool Terms::operand(double& value) {
   const char c = *at_;
   if (is_digit(c) || c == '.') [[likely]] {
     int small = 0;  // as nearly all constants
-    if (!take_small_number(at_, small)) return read_number_at(run_, at_, value);
-    value = small;
+    if (take_small_number(at_, small)) {
+      value = small;
+    } else if (!read_number_at(run_, at_, value)) {
+      return false;
+    }
+    known_.add({.kind = Kind::Constant, .value = value});
     return true;
   }
   if (depth_ >= kMaxDepth) return run_.fail(ErrorCode::NestedTooDeep, run_.column(at_));
@@ -206,9 +176,13 @@ bool Terms::operand(double& value) {
     if (run_.is_linuxcnc() && !is_digit(next) && next != '.') {
       ++at_;
       ok = operand(value);
-      if (c == '-') value = -value;
+      if (c == '-') {
+        value = -value;
+        known_.add({.kind = Kind::Negate});
+      }
     } else {
       ok = read_number_at(run_, at_, value);
+      known_.add({.kind = Kind::Constant, .value = value});
     }
   } else if (is_letter(c)) {
     ok = function(value);
@@ -223,12 +197,20 @@ bool Terms::operand(double& value) {
 bool Terms::parameter(double& value) {
   at_ = skip_blanks(at_);
   const char* start = at_;
+  int small = 0;
+  if (take_small_number(at_, small)) [[likely]] {
+    if (small < kFirstReadOnly) {
+      known_.add({.kind = Kind::Parameter, .parameter = static_cast<std::uint16_t>(small)});
+    } else {
+      known_.spoil();  // it shows the state, or is none
+    }
+    return read_parameter(run_, small, run_.column(start), value);
+  }
+  known_.spoil();
   if (*at_ == '<' && run_.is_linuxcnc()) {
     if (!read_name(run_, at_, run_.scratch)) return false;
     return read_named(run_, run_.scratch, run_.column(start), value);
   }
-  if (int small = 0; take_small_number(at_, small)) [[likely]]
-    return read_parameter(run_, small, run_.column(start), value);
   double index = 0;
   if (!operand(index)) return false;
   const double whole = std::round(index);
@@ -252,15 +234,13 @@ bool Terms::arc_tangent(double& value) {
   at_ = skip_blanks(at_ + 1);
   if (*at_ != '[') return run_.fail(ErrorCode::AtanBracket, run_.column(at_));
   if (!bracketed(second)) return false;
-  if (value == 0) {
-    value = second < 0 ? 180 : 0;  // -0 must not turn into -180; 0/0 is 0
-  } else {
-    value = std::atan2(value, second) * (180 / Angle::kPi);
-  }
+  value = angle_of(value, second);
+  known_.add({.kind = Kind::ArcTangent});
   return true;
 }
 
 bool Terms::exists(double& value) {
+  known_.spoil();
   at_ = skip_blanks(at_);
   if (*at_ != '[') return run_.fail(ErrorCode::FunctionBracket, run_.column(at_));
   at_ = skip_blanks(at_ + 1);
@@ -295,8 +275,31 @@ bool Terms::function(double& value) {
       if (!run_.is_linuxcnc()) return run_.fail(ErrorCode::UnknownFunction, run_.column(start));
       return exists(value);
     default:
-      return argument(value) && compute(run_, function, run_.column(start), value);
+      if (!argument(value)) return false;
+      known_.add({.kind = Kind::Compute, .function = function});
+      return compute(run_, function, run_.column(start), value);
   }
+}
+
+/// An expression that was read before is only computed; where that fails, reading it once more
+/// reports the error at its place.
+bool read_or_compute(Run& run, const char*& at, double& value, bool (Terms::*read)(double&)) {
+  const ProgramIndex program = run.here.program;
+  const std::uint64_t offset = run.here.offset + static_cast<std::uint64_t>(at - run.line_begin);
+  if (const auto* known = run.expressions.find(program, offset)) {
+    if (compute_steps(run, known->expression, value)) [[likely]] {
+      at += known->length;
+      return true;
+    }
+    run.pause = Pause::None;
+  }
+  KnownExpressions::Slot slot{.offset = offset, .program = program, .expression = {}};
+  const char* start = at;
+  Terms terms(run, at, slot.expression);
+  if (!(terms.*read)(value)) return false;
+  slot.length = static_cast<std::uint32_t>(at - start);
+  if (slot.expression.is_good()) run.expressions.keep(slot);
+  return true;
 }
 
 }  // namespace
@@ -307,7 +310,7 @@ bool read_computed_value(Run& run, const char*& at, double& value) {
     if (is_digit(*after_sign) || *after_sign == '.') return read_number_at(run, at, value);
     if (!run.is_linuxcnc()) return run.fail(ErrorCode::NoDigits, run.column(at));
   }
-  return Terms(run, at, 0).operand(value);
+  return read_or_compute(run, at, value, &Terms::operand);
 }
 
 bool read_integer(Run& run, const char*& at, int& value) {
@@ -327,7 +330,7 @@ bool read_integer(Run& run, const char*& at, int& value) {
 }
 
 bool read_expression(Run& run, const char*& at, double& value) {
-  return Terms(run, at, 0).bracketed(value);
+  return read_or_compute(run, at, value, &Terms::bracketed);
 }
 
 bool read_name(Run& run, const char*& at, std::string& name) {
