@@ -1,7 +1,10 @@
 #include "gateway/app/restart/approach.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+
+#include "gateway/app/restart/restart_plan.hpp"
 
 namespace dripline::gateway {
 
@@ -11,7 +14,8 @@ using interpreter::Position;
 
 namespace {
 
-constexpr double kSame = 1e-9;  ///< millimeters or degrees
+constexpr double kSame = 1e-9;    ///< millimeters or degrees
+constexpr double kOnMove = 0.02;  ///< likewise: what a position may be off a path
 
 Position along(Axis axis, double value) {
   Position position;
@@ -32,6 +36,58 @@ Feed Approach::plunge_feed() const {
 
 bool Approach::differs(Axis axis) const {
   return to.has(axis) && std::fabs(to.raw(axis) - from.raw(axis)) > kSame;
+}
+
+bool Approach::is_far(Axis axis) const {
+  return to.has(axis) && std::fabs(to.raw(axis) - from.raw(axis)) > kSameAxes;
+}
+
+/// Where no height is known to be clear. At the place the approach only goes up and down.
+std::string Approach::height_fault() const {
+  std::string now, place;
+  for (const Axis axis : kAllAxes) {
+    if (axis == tool_axis || !is_far(axis)) continue;
+    now += fmt::format(" {}{:.3f}", interpreter::letter(axis), from.raw(axis));
+    place += fmt::format(" {}{:.3f}", interpreter::letter(axis), to.raw(axis));
+  }
+  return fmt::format(
+      "the axes are at{}, and no height is known to be clear for a move from there to{}, where the "
+      "program continues: at the heights that it has had it led across at feed alone. Bring the "
+      "axes to{} by hand or by MDI, clear of the part, and restart again (machine coordinates), or "
+      "restart at another block",
+      now, place, place);
+}
+
+/// Between the place and the end of the straight move that follows it: a run that is cut off stops
+/// there.
+bool Approach::is_on_next_move() const {
+  if (passed == nullptr || !passed->continues_with()) return false;
+  const Position& end = passed->continues_with()->to;
+  double part = 0, longest = 0;
+  for (const Axis axis : kAllAxes) {
+    const double travel = end.has(axis) && to.has(axis) ? end.raw(axis) - to.raw(axis) : 0;
+    if (std::fabs(travel) <= longest) continue;
+    longest = std::fabs(travel);
+    part = (from.raw(axis) - to.raw(axis)) / travel;
+  }
+  if (longest == 0 || part < 0 || part > 1 + kOnMove / longest) return false;
+  return std::ranges::all_of(kAllAxes, [&](Axis axis) {
+    if (!to.has(axis)) return true;
+    const double travel = end.has(axis) ? end.raw(axis) - to.raw(axis) : 0;
+    return std::fabs(to.raw(axis) + part * travel - from.raw(axis)) <= kOnMove;
+  });
+}
+
+/// With the spindle switched on: through no material but what this move of the program cuts.
+bool Approach::add_straight_back(Plan& plan) const {
+  if (changes_tool || !is_on_next_move()) return false;
+  Position back;
+  for (const Axis axis : kAllAxes)
+    if (to.has(axis)) back.set_raw(axis, to.raw(axis));
+  ApproachMove move{back, {}, {}};
+  if (!passed->continues_with()->is_rapid) move.feed = plunge_feed();
+  plan.after.push_back(move);
+  return true;
 }
 
 /// Out of the cut along the tool that is in it. Another one may have another axis.
@@ -55,16 +111,25 @@ Approach::Plan Approach::plan() const {
   plan.clearance = std::max(now, target);
   if (highest.has(tool_axis)) plan.clearance = std::max(plan.clearance, highest.raw(tool_axis));
   Position others;
-  bool is_elsewhere = false;
+  bool is_elsewhere = false, is_across = false;
   for (const Axis axis : kAllAxes) {
     if (axis == tool_axis || !to.has(axis)) continue;
     others.set_raw(axis, to.raw(axis));
     is_elsewhere |= differs(axis);
+    is_across |= is_far(axis);
   }
   const bool is_there = !is_elsewhere && std::fabs(target - now) <= kSame;
   if (is_there && !changes_tool) return plan;
   add_retracts(plan);
-  is_elsewhere |= spindle_axis && *spindle_axis != tool_axis && plan.retracts > 0;
+  const bool comes_back = spindle_axis && *spindle_axis != tool_axis && plan.retracts > 0;
+  is_elsewhere |= comes_back;
+  is_across |= comes_back;
+  if (is_across && !is_clear) {
+    plan.before.clear();
+    plan.retracts = 0;
+    if (!add_straight_back(plan)) plan.fault = height_fault();
+    return plan;
+  }
   if (is_elsewhere) plan.before.push_back({others, {}});
   if (!has_tool_axis || plan.clearance - target <= kSame) return plan;
   if (plan.clearance - target > kPlunge)

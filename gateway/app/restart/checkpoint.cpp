@@ -24,9 +24,9 @@ constexpr std::uint32_t kConditionsFormat = 5;
 /// whether the tool stopped in a thread, too.
 constexpr std::uint32_t kEndingFormat = 8, kThreadFormat = 6;
 
-/// Of checkpoints, which have the heights that axes and tip have reached. Those without are
-/// refused: nothing else shows where the axes were when the run began.
-constexpr std::uint32_t kCheckpointFormat = 9;
+/// Of checkpoints, which have the heights that axes and tip have reached, and what shows that they
+/// are clear. Those without are refused: nothing else shows it.
+constexpr std::uint32_t kCheckpointFormat = 10;
 
 /// What bytes are, and of what.
 struct Label {

@@ -83,9 +83,10 @@ void EventTracker::add(double value) {
 
 /// A move names the axes that take part in it and those before it; the values of all count.
 void EventTracker::move_to(const interpreter::Origin& origin, const Position& to,
-                           const std::optional<interpreter::PathArc>& arc) {
+                           const Shape& shape) {
   const ReachedHeights::Lengths lengths = lengths_ ? lengths_() : ReachedHeights::Lengths{};
-  arc ? state_.heights.move(to, *arc, lengths) : state_.heights.move(to, lengths);
+  shape.arc ? state_.heights.move(to, *shape.arc, lengths)
+            : state_.heights.move(to, lengths, shape.kind);
   for (const Axis axis : kAllAxes) {
     if (!to.has(axis)) continue;
     const double value = to.raw(axis);
@@ -126,7 +127,7 @@ void EventTracker::on_rapid(const interpreter::Rapid& event) {
   if (also_ != nullptr) also_->on_rapid(event);
   measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kRapid);
-  move_to(event.origin, event.to);
+  move_to(event.origin, event.to, {.arc = {}, .kind = ReachedHeights::Kind::Rapid});
   EventGate::on_rapid(event);
 }
 
@@ -135,7 +136,7 @@ void EventTracker::on_line(const interpreter::Line& event) {
   measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kLine);
   state_.feed = event.feed;
-  move_to(event.origin, event.to);
+  move_to(event.origin, event.to, {});
   EventGate::on_line(event);
 }
 
@@ -149,8 +150,8 @@ void EventTracker::on_arc(const interpreter::Arc& event) {
   add(event.sweep.degrees());
   state_.feed = event.feed;
   move_to(event.origin, event.to,
-          interpreter::PathArc{event.center_first, event.center_second, event.plane, event.turn,
-                               event.sweep});
+          {interpreter::PathArc{event.center_first, event.center_second, event.plane, event.turn,
+                                event.sweep}});
   EventGate::on_arc(event);
 }
 
@@ -161,7 +162,7 @@ void EventTracker::on_thread(const interpreter::Thread& event) {
   measure_move(event.origin, event.to, length);
   add(kThread);
   add(event.lead.mm());
-  move_to(event.origin, event.to, event.arc);
+  move_to(event.origin, event.to, {event.arc});
   EventGate::on_thread(event);
 }
 
@@ -175,7 +176,7 @@ void EventTracker::on_probe(const interpreter::Probe& event) {
                            : distance(state_.position, at));
     add(kProbe);
     if (!event.is_rapid) state_.feed = event.feed;
-    move_to(event.origin, at, event.arc);
+    move_to(event.origin, at, {event.arc});
   }
   EventGate::on_probe(event);
 }

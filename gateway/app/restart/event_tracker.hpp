@@ -119,8 +119,12 @@ class EventTracker final : public interpreter::EventGate {
   bool is_open() const override { return !is_closed_; }
   void add(double value);
   void add(std::uint64_t bits);
+  struct Shape {
+    std::optional<interpreter::PathArc> arc = {};
+    ReachedHeights::Kind kind = ReachedHeights::Kind::Feed;
+  };
   void move_to(const interpreter::Origin& origin, const interpreter::Position& to,
-               const std::optional<interpreter::PathArc>& arc = {});
+               const Shape& shape);
   void measure_move(const interpreter::Origin& origin, const interpreter::Position& to,
                     double length);
   void note_code(int code);

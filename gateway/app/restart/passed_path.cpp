@@ -102,7 +102,10 @@ void PassedPath::add(const interpreter::Origin& origin, const Position& to, Pass
   Position reached = at_;
   for (const Axis axis : kAllAxes)
     if (to.has(axis)) reached.set_raw(axis, to.raw(axis));
+  const bool is_first = !has_continued_;
   note_thread(origin, reached, kind);
+  if (is_first && has_continued_ && kind == Kind::Free && !move.arc)
+    continues_with_ = {to, move.is_rapid};
   if (moves_others(to)) begin_again(origin.block);
   const auto from = place();
   at_ = reached;

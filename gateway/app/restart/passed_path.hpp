@@ -35,6 +35,12 @@ class PassedPath final : public interpreter::EventSink {
   bool has_ended(std::uint64_t block) const { return ended_ >= block; }
   /// A move after the target has come.
   bool has_continued() const { return has_continued_; }
+  /// The first one, if it is a straight line and no thread: `to` marks its axes.
+  struct StraightMove {
+    interpreter::Position to;
+    bool is_rapid = false;
+  };
+  const std::optional<StraightMove>& continues_with() const { return continues_with_; }
 
   /// Those that were made; none where they are not known to be free any more.
   const std::vector<PassedMove>& moves() const { return moves_; }
@@ -82,6 +88,7 @@ class PassedPath final : public interpreter::EventSink {
   bool is_lost_ = false, has_other_tool_ = false;
   std::uint64_t ended_ = 0;
   bool has_continued_ = false;
+  std::optional<StraightMove> continues_with_;
   std::uint64_t thread_block_ = 0;  ///< where the last move's thread begins; 0: it is none
   ThreadMove last_thread_;
   bool is_in_chain_ = false;

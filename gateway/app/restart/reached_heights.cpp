@@ -50,7 +50,16 @@ void ReachedHeights::raise(Axis axis, double value, const Lengths& now) {
   raise_to(tip, axis, place - along(now.of_tool, axis));
 }
 
-void ReachedHeights::move(const Position& to, const Lengths& now) {
+/// Where the tip is, by the lengths that the axes have taken in.
+Position ReachedHeights::tip_at(const Lengths& now) const {
+  Position tip_now;
+  for (const Axis axis : kAllAxes)
+    tip_now.set_raw(axis, at.raw(axis) + along(lengths, axis) - along(now.of_tool, axis));
+  return tip_now;
+}
+
+void ReachedHeights::move(const Position& to, const Lengths& now, Kind kind) {
+  const Position from = tip_at(now);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const auto axis = static_cast<Axis>(i);
     if (!to.has(axis)) continue;
@@ -63,6 +72,10 @@ void ReachedHeights::move(const Position& to, const Lengths& now) {
     raise(axis, to.raw(axis), now);
     at.set_raw(axis, to.raw(axis));
   }
+  Position reached = tip_at(now);
+  reached.unmark_all();
+  reached.mark_all_of(to);
+  clear.move({from, reached, kind == Kind::Rapid});
 }
 
 /// An arc across the tool axis may be higher between its ends than at both of them.
@@ -86,6 +99,10 @@ std::optional<double> ReachedHeights::highest(Axis axis, const Lengths& tool) co
   if (tip.has(axis)) place = std::max(*place, tip.raw(axis) + along(tool.of_tool, axis));
   if (place) *place -= along(tool.of_axes, axis);
   return place;
+}
+
+bool ReachedHeights::is_clear(Axis axis, double height, const Lengths& tool) const {
+  return clear.is_clear(axis, height + along(tool.of_axes, axis) - along(tool.of_tool, axis));
 }
 
 }  // namespace dripline::gateway

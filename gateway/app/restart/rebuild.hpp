@@ -96,6 +96,7 @@ class Rebuild {
   void note_lengths();
   machine::ToolLengths take_lengths();
   interpreter::Position highest(interpreter::Axis up) const;
+  bool is_clear(const interpreter::Position& highest, interpreter::Axis up) const;
   void expect_unmoved(const machine::ToolLengths& lengths);
   Result<void> compare_ending() const;
 

@@ -84,6 +84,12 @@ interpreter::Position Rebuild::highest(interpreter::Axis up) const {
   return highest;
 }
 
+/// Whether the run has shown that its highest place is clear to be led across at.
+bool Rebuild::is_clear(const interpreter::Position& highest, interpreter::Axis up) const {
+  const ReachedHeights& heights = reached_ ? *reached_ : parts_.tracker.delivered().heights;
+  return highest.has(up) && heights.is_clear(up, highest.raw(up), *lengths_);
+}
+
 void Rebuild::on_open(interpreter::EventSink& out) {
   const machine::ToolLengths lengths = take_lengths();
   if (!parts_.tracker.has_ended()) {
@@ -107,6 +113,7 @@ void Rebuild::on_open(interpreter::EventSink& out) {
   approach.from = report_.machine;
   approach.to = report_.delivered.position;
   approach.highest = highest(approach.tool_axis);
+  approach.is_clear = is_clear(approach.highest, approach.tool_axis);
   approach.changes_tool = changes_tool_;
   if (changes_tool_ && in_spindle_.axis && in_spindle_.axis != approach.tool_axis) {
     approach.spindle_axis = in_spindle_.axis;

@@ -282,6 +282,7 @@ Approach mill() {
   return {.from = at(0, 0, 10),
           .to = at(40, 30, -5),
           .highest = at(100, 100, 50),
+          .is_clear = true,
           .feed = Feed::per_minute(Length::mm(150)),
           .spindle_turns = true};
 }

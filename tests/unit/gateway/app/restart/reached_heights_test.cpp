@@ -105,6 +105,7 @@ Approach flat() {
   approach.from = xz(10, 5);
   approach.to = xz(0, 5);
   approach.highest = z(5);
+  approach.is_clear = true;
   return approach;
 }
 

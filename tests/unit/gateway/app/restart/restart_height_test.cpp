@@ -78,5 +78,90 @@ TEST_F(ApproachHeight, IsNotThatBeforeTheRun) {
   EXPECT_EQ(report["approach"][0]["to"], (Json{{"Z", 50}})) << report["approach"];
 }
 
+constexpr const char* kCutsAtOneHeight =
+    "O0210\nG21 G90 M03 S900\nG01 X20. F60\nN30 X60.\nN40 Y30.\nM00\nX0\nM30\n";
+
+class FlatProgram : public testing::Test {
+ protected:
+  /// The simulated axes begin at Z-5, in the part.
+  FlatProgram() {
+    interpreter::Setup setup;
+    setup.start.set(interpreter::Axis::Z, Length::mm(-5));
+    shop.emplace(interpreter::kFanucDialect, setup, "20x");
+  }
+  void abort_at_stop(const std::string& text) {
+    shop->push("P", text);
+    shop->restart_gateway();
+    ASSERT_TRUE(shop->start_program("P").accepted);
+    run = shop->last_run();
+    ASSERT_TRUE(shop->run_until(
+        [&] { return shop->status && shop->status->execution == dds::Execution::ProgramStopped; }));
+    ASSERT_TRUE(shop->send(shop->command(dds::CommandAction::Abort)).accepted);
+    ASSERT_TRUE(shop->run_on());
+    shop->path.clear();
+  }
+  void key_in(const std::string& text) {
+    shop->push("MDI", text);
+    dds::Command command = shop->start_command("MDI");
+    command.argument = dds::kMdiStart;
+    const std::size_t ended = shop->count(dds::RecordKind::RunEnded);
+    ASSERT_TRUE(shop->send(command).accepted);
+    ASSERT_TRUE(shop->run_until([&] {
+      return shop->count(dds::RecordKind::RunEnded) > ended && shop->gateway->status().run.empty();
+    }));
+    shop->path.clear();
+  }
+  Json restart(const std::string& at) { return shop->begin_restart("P", run, at); }
+
+  std::optional<RestartFixture> shop;
+  std::string run;
+};
+
+TEST_F(FlatProgram, IsLeftToTheOperatorWithThePlace) {
+  abort_at_stop(kCutsAtOneHeight);
+  EXPECT_TRUE(restart("N30").is_null());
+  EXPECT_THAT(shop->last_end().reason,
+              testing::HasSubstr("the axes are at X60.000 Y30.000, and no height is known to be "
+                                 "clear for a move from there to X20.000 Y0.000"));
+  EXPECT_THAT(shop->last_end().reason,
+              testing::HasSubstr("Bring the axes to X20.000 Y0.000 by hand or by MDI"));
+  EXPECT_TRUE(shop->path.empty()) << "nothing was given to the machine";
+}
+
+/// Within what the axes of one machine report as the same place.
+TEST_F(FlatProgram, ContinuesWhenTheAxesWereBroughtToThePlace) {
+  abort_at_stop(kCutsAtOneHeight);
+  key_in("G21 G00 X20.001 Y0");
+  const auto report = restart("N30");
+  ASSERT_TRUE(report.is_object()) << shop->start_answer.reason << shop->last_end().reason;
+  ASSERT_TRUE(shop->cycle_start());
+  ASSERT_TRUE(shop->run_on());
+  EXPECT_EQ(shop->last_end().outcome, dds::RunOutcome::Completed) << shop->last_end().reason;
+}
+
+/// Back along what the interrupted move has cut, at its feed.
+TEST_F(FlatProgram, GoesBackInTheMoveThatWasCutOff) {
+  shop->push("P", kCutsAtOneHeight);
+  shop->restart_gateway();
+  ASSERT_TRUE(shop->start_program("P").accepted);
+  run = shop->last_run();
+  ASSERT_TRUE(shop->run_until([&] { return shop->status && shop->status->position[0] > 30; }));
+  ASSERT_TRUE(shop->send(shop->command(dds::CommandAction::Abort)).accepted);
+  ASSERT_TRUE(shop->run_on());
+  const auto report = restart("executed");
+  ASSERT_TRUE(report.is_object()) << shop->start_answer.reason << shop->last_end().reason;
+  EXPECT_EQ(report["next"]["n"], 30);
+  ASSERT_EQ(report["approach"].size(), 2U) << report["approach"];
+  EXPECT_EQ(report["approach"][1]["move"], "feed");
+  EXPECT_EQ(report["approach"][1]["to"]["X"], 20);
+}
+
+TEST_F(FlatProgram, IsLedAcrossWhereItDidSoItself) {
+  abort_at_stop("O0212\nG21 G90\nG00 X20.\nN30 G01 X60. F900\nN40 Y30.\nM00\nX0\nM30\n");
+  const auto report = restart("N30");
+  ASSERT_TRUE(report.is_object()) << shop->start_answer.reason << shop->last_end().reason;
+  EXPECT_EQ(report["approach"][0]["to"]["X"], 20) << report["approach"];
+}
+
 }  // namespace
 }  // namespace dripline::gateway

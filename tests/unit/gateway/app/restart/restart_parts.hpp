@@ -38,9 +38,10 @@ inline constexpr Part kParts[] = {
      "Y-20\no1 "
      "call\no1 call\nG99 G83 X5 Y5 Z-8 R2 Q1.5 F500\nX[10+#1]\nG80\n#1=[#1+1]\no2 endwhile\nM2\n"},
     {"tnc155", "",
-     "0 BEGIN PGM 1 MM\n1 TOOL DEF 1 L+0,000 R+4\n2 TOOL CALL 1 Z S 500,000\n3 L Z+5 R0 F9999 "
+     "0 BEGIN PGM 1 MM\n1 TOOL DEF 1 L+0,000 R+4\n2 TOOL CALL 1 Z S 500,000\n3 L Z+5 R0 F MAX "
      "M03\n4 LBL "
-     "1\n5 L X+0 Y-20 R0 F900\n6 L X+0 Y+0 RR\n7 L X+40 Y+0\n8 L X+40 Y+30\n9 L X+0 Y+0\n10 L X-20 "
+     "1\n5 L X+0 Y-20 R0 F MAX\n6 L X+0 Y+0 RR F900\n7 L X+40 Y+0\n8 L X+40 Y+30\n9 L X+0 Y+0\n10 "
+     "L X-20 "
      "Y-20 "
      "R0\n11 CALL LBL 5 REP\n12 CYCL DEF 4.0 POCKET MILLING\n13 CYCL DEF 4.1 SET-UP -2,000\n14 "
      "CYCL DEF "
