@@ -83,9 +83,8 @@ bool Approach::is_beyond_all() const {
 bool Approach::add_from_outside(Plan& plan) const {
   if (!is_beyond_all()) return false;
   const PlaneVector now = plane_place(from), out = *passed->taken_up_at();
+  if (!leads_to_place(out)) return false;
   const auto route = passed_route(passed->moves(), out, plane_place(to));
-  const bool is_there = is_near(out, plane_place(to));
-  if (!is_there && (!route || route->size() > kMaxApproachMoves)) return false;
   for (const Axis axis : {Axis::X, Axis::Z}) {
     const double value = axis == Axis::X ? out.second : out.first;
     if (std::fabs(value - (axis == Axis::X ? now.second : now.first)) <= kUnmoved) continue;
@@ -110,6 +109,14 @@ bool Approach::add_straight(Plan& plan) const {
   return true;
 }
 
+/// Over moves that were made. A thread is none of them.
+bool Approach::leads_to_place(PlaneVector place) const {
+  const PlaneVector target = plane_place(to);
+  if (is_near(place, target)) return true;
+  const auto route = passed_route(passed->moves(), place, target);
+  return route && route->size() <= kMaxApproachMoves;
+}
+
 std::string Approach::lathe_fault(bool are_others_elsewhere) const {
   const bool is_other_tool = passed != nullptr && passed->has_other_tool();
   std::string text = fmt::format(
@@ -118,7 +125,7 @@ std::string Approach::lathe_fault(bool are_others_elsewhere) const {
       plane_text(plane_place(from)), plane_text(plane_place(to)),
       is_other_tool ? ", and another tool is in its position" : "");
   if (are_others_elsewhere) text += ", and the other axes too";
-  if (passed != nullptr && passed->taken_up_at()) {
+  if (passed != nullptr && passed->taken_up_at() && leads_to_place(*passed->taken_up_at())) {
     text += fmt::format(", or to {}, where the program took it up, or farther out in both",
                         plane_text(*passed->taken_up_at()));
   }

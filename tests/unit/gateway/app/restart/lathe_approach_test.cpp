@@ -255,6 +255,20 @@ TEST(LatheApproach, GoesBackOutOfAPocket) {
   EXPECT_THAT(fault, HasSubstr("or back to X35.000 Z-25.000, where it stopped"));
 }
 
+/// A thread between is free at one angle of the spindle alone.
+TEST(LatheApproach, OffersNoPlaceThatNoPathLeadsFrom) {
+  const std::string program =
+      "O1\nT0101\nG97 S500 M03\nG00 X40. Z5.\nG32 Z-20. F2.\nG01 X44. Z-30. F0.2\nX60.\nM30\n";
+  Moves moves;
+  run(program, moves);
+  ASSERT_EQ(moves.alarm, "");
+  ASSERT_GT(moves.all.size(), 1U);
+  const Stopped stopped = stop_in(program, moves, moves.all.size() - 1, 0.5);
+  const std::string fault = plan_from(stopped, place(90, 20)).fault;
+  EXPECT_THAT(fault, HasSubstr("to X44.000 Z-30.000, where the program continues"));
+  EXPECT_THAT(fault, testing::Not(HasSubstr("where the program took it up")));
+}
+
 /// An arc is an arc backward too.
 TEST(LatheApproach, GoesBackAlongAnArc) {
   const std::string program = "O1\nT0101\nG00 X20. Z0\nG03 X30. Z-5. R5. F0.2\nG00 X60.\nM30\n";
