@@ -1,6 +1,7 @@
 // Every golden program of every control, cut off at some moment and restarted: the path before and
 // after is the path of an undisturbed run. Every third program once; with DRIPLINE_RESTARTS all of
 // them, so often.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <cstdlib>
 #include <map>
@@ -122,6 +123,29 @@ INSTANTIATE_TEST_SUITE_P(, RestartOfGolden,
                            std::erase(name, '-');
                            return name;
                          });
+
+/// Nothing was executed: what the control checks at a start, that called programs are there, it
+/// checks again, before anything moves.
+TEST(RestartOfATnc, ChecksForCalledProgramsAgain) {
+  const auto golden = interpreter::read_golden_case("tnc155", "alarm-program-missing");
+  const auto control = interpreter::find_dialect(golden.control).value();
+  RestartFixture shop(*control, setup_of(golden, *control), kSpeed);
+  shop.loader = loader_of(golden);
+  shop.push("P", golden.program());
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.start_program("P").accepted);
+  const std::string run = shop.last_run();
+  ASSERT_FALSE(shop.run_on(1));
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.run_until([&] { return shop.count(dds::RecordKind::RunEnded) == 1; }));
+  ASSERT_EQ(shop.last_end().executed, 0u);
+  shop.path.clear();
+  ASSERT_TRUE(shop.begin_restart("P", run).is_object()) << shop.last_end().reason;
+  ASSERT_TRUE(shop.cycle_start());
+  ASSERT_TRUE(shop.run_on());
+  EXPECT_EQ(shop.last_end().outcome, dds::RunOutcome::Alarmed) << shop.last_end().reason;
+  EXPECT_THAT(shop.path, testing::Each(testing::Not(testing::HasSubstr(" line ")))) << "it moved";
+}
 
 }  // namespace
 }  // namespace dripline::gateway
