@@ -131,12 +131,18 @@ void EventTracker::on_rapid(const interpreter::Rapid& event) {
   EventGate::on_rapid(event);
 }
 
+ReachedHeights::Kind EventTracker::kind_of(const Feed& feed) const {
+  const bool is_rapid =
+      rapid_feed_ && feed.per() == Feed::Per::Minute && feed.length() >= *rapid_feed_;
+  return is_rapid ? ReachedHeights::Kind::Rapid : ReachedHeights::Kind::Feed;
+}
+
 void EventTracker::on_line(const interpreter::Line& event) {
   if (also_ != nullptr) also_->on_line(event);
   measure_move(event.origin, event.to, distance(state_.position, event.to));
   add(kLine);
   state_.feed = event.feed;
-  move_to(event.origin, event.to, {});
+  move_to(event.origin, event.to, {.arc = {}, .kind = kind_of(event.feed)});
   EventGate::on_line(event);
 }
 

@@ -29,6 +29,10 @@ class EventTracker final : public interpreter::EventGate {
     lengths_ = std::move(lengths);
   }
 
+  /// Of a control without a word for rapid traverse: from which feed on, per minute, a straight
+  /// move is one.
+  void use_rapid_feed(const std::optional<Length>& feed) { rapid_feed_ = feed; }
+
   const DeliveredState& delivered() const { return state_; }
   /// The hash of the path when `block` ended; 0: not known any more.
   std::uint64_t path_at(std::uint64_t block) const {
@@ -127,6 +131,7 @@ class EventTracker final : public interpreter::EventGate {
                const Shape& shape);
   void measure_move(const interpreter::Origin& origin, const interpreter::Position& to,
                     double length);
+  ReachedHeights::Kind kind_of(const Feed& feed) const;
   void note_code(int code);
   void note_found(const interpreter::Origin& origin);
 
@@ -140,6 +145,7 @@ class EventTracker final : public interpreter::EventGate {
 
   DeliveredState state_;
   std::function<ReachedHeights::Lengths()> lengths_;
+  std::optional<Length> rapid_feed_;
   std::unique_ptr<Paths> paths_;
   double length_ = 0;
   Moves moves_;

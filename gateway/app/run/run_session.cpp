@@ -132,6 +132,7 @@ RunSession::RunSession(Parts parts, const interpreter::Dialect& dialect,
       tool_history_(dialect.length_shifts_position) {
   events_.begin(parts_.at, parts_.lengths);
   tracker_.begin(parts_.at, parts_.lengths);
+  tracker_.use_rapid_feed(dialect.rapid_feed);
   if (parts_.machine.capabilities().adds_lengths) {
     tracker_.use_lengths([this] {
       const interpreter::ActiveModes modes = interpreter_->modes();

@@ -218,6 +218,9 @@ constexpr std::size_t kItncMdiBlocks = 10;  ///< $MDI is a program of any length
 
 }  // namespace
 
+/// Programs in plain language write F9999 or F15999 for rapid traverse.
+constexpr Length kRapidFeed = Length::mm(9'999);
+
 const Dialect kTnc155Dialect{.name = "tnc155",
                              .title = "HEIDENHAIN TNC 151/155 (plain language and ISO)",
                              .likelihood = &likelihood,
@@ -234,7 +237,8 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .text = {.kind = TextForm::Kind::PlainLanguage},
                              .status_fields = kStatusFields,
                              .screen = &screen,
-                             .moves_with_length = true};
+                             .moves_with_length = true,
+                             .rapid_feed = kRapidFeed};
 
 const Dialect kItncDialect{.name = "itnc",
                            .title = "HEIDENHAIN TNC 426/430, iTNC 530 (plain language)",

@@ -163,5 +163,29 @@ TEST_F(FlatProgram, IsLedAcrossWhereItDidSoItself) {
   EXPECT_EQ(report["approach"][0]["to"]["X"], 20) << report["approach"];
 }
 
+/// A TNC 155's programs have F9999 for rapid traverse.
+TEST(TncHeight, IsClearAfterRapidTraverseByFeed) {
+  interpreter::Setup setup;
+  setup.start.set(interpreter::Axis::Z, Length::mm(20));
+  const auto restart_after = [&](const std::string& positioning) {
+    RestartFixture shop(interpreter::kTnc155Dialect, setup, "20x");
+    shop.push("P", "0 BEGIN PGM 7 MM\n1 L X+10 R0 F" + positioning +
+                       "\n2 L Z-5 R0 F900\n3 L X+60 R0 F900\n4 L Y+60\n5 STOP\n6 L X+0\n"
+                       "7 END PGM 7 MM\n");
+    shop.restart_gateway();
+    EXPECT_TRUE(shop.start_program("P").accepted);
+    const std::string run = shop.last_run();
+    EXPECT_TRUE(shop.run_until(
+        [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
+    EXPECT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
+    EXPECT_TRUE(shop.run_on());
+    return shop.begin_restart("P", run, "L4");
+  };
+  const auto report = restart_after("9999");
+  ASSERT_TRUE(report.is_object());
+  EXPECT_EQ(report["approach"][0]["to"]["Z"], 20) << report["approach"];
+  EXPECT_TRUE(restart_after("2000").is_null()) << "only cuts led across";
+}
+
 }  // namespace
 }  // namespace dripline::gateway
