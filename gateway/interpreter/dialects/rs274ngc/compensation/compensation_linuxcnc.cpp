@@ -167,10 +167,13 @@ Corner corner_of(const Run& run, const Entry& entry) {
   return turn > kStraightOn ? Corner::Convex : Corner::StraightOn;
 }
 
+PlaneVector unit_vector(double angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
+
 /// Direction in which the held move arrives at the corner, of length 1.
 PlaneVector travel_of(const Run& run, const Entry& entry) {
-  const double angle = entry.old_normal - side_sign(run) * kQuarter;
-  return {std::cos(angle), std::sin(angle)};
+  return unit_vector(entry.old_normal - side_sign(run) * kQuarter);
 }
 
 /// About the programmed corner, at the height where the held moves end; not held itself.
@@ -193,28 +196,24 @@ bool make_corner(Run& run, const Target& target, bool is_rapid, const Feed& feed
   return ok;
 }
 
-double along_of(PlaneVector from, PlaneVector to, double angle) {
-  return (to.first - from.first) * std::cos(angle) + (to.second - from.second) * std::sin(angle);
-}
-
 /// Which of two points the tool leaves the held curve at. A line ends where it first reaches a
 /// circle that it must stay outside of, and where it last crosses one that it must stay inside of;
 /// a line that begins, the reverse. The nearer point may be the other, where the path doubles back.
 PlaneVector leaving_point(const Run& run, const Entry& entry, const OffsetCurve& next,
-                          const Meeting& meeting) {
+                          const Meeting& meeting, PlaneVector travel) {
   const auto [a, b] = meeting.points;
   if (meeting.count == 1) return a;
   const auto* held = std::get_if<Arc>(&run.held.events().front());
   const bool is_inside_held = held != nullptr && is_inside(run, held->turn);
   if (held != nullptr && next.is_circle) {
     const PlaneVector center{held->center_first.mm(), held->center_second.mm()};
-    const double left = direction(center, next.at) + kQuarter;
+    const PlaneVector left = unit_vector(direction(center, next.at) + kQuarter);
     const bool is_left = is_inside_held == (*entry.next_turn == Turn::Counterclockwise);
-    return (along_of(b, a, left) > 0) == is_left ? a : b;
+    return (dot(a - b, left) > 0) == is_left ? a : b;
   }
-  const double angle = held != nullptr ? next.angle : travel_of(run, entry);
+  const PlaneVector along = held != nullptr ? unit_vector(next.angle) : travel;
   const bool is_last = held != nullptr ? !is_inside_held : is_inside(run, *entry.next_turn);
-  return (along_of(b, a, angle) > 0) == is_last ? a : b;
+  return (dot(a - b, along) > 0) == is_last ? a : b;
 }
 
 /// Makes the corner between the held move and the next, whose offset curve is `next`.
@@ -236,7 +235,7 @@ bool join(Run& run, const Entry& entry, const OffsetCurve& next, bool is_rapid, 
   if (meeting.count == 0) {
     return run.fail(next.is_circle ? ErrorCode::CompCorner : ErrorCode::CompZeroCorner, 0);
   }
-  const PlaneVector best = leaving_point(run, entry, next, meeting);
+  const PlaneVector best = leaving_point(run, entry, next, meeting, travel);
   if (is_past(entry.tool, best, travel)) return run.fail(ErrorCode::CompCorner, 0);
   if (!finish_held(run, best, travel)) return false;
   // The next move begins where the held one ended now.
