@@ -149,6 +149,30 @@ Result<PanelCommand> parse_panel_command(std::string_view line) {
   return fail(Errc::Syntax, "'{}' is none of {}", word, known);
 }
 
+bool is_stop(const PanelCommand& command) {
+  switch (command.verb) {
+    case Verb::Status:
+    case Verb::Hold:
+    case Verb::Abort:
+      return true;
+    case Verb::EmergencyStop:
+      return command.value == 1;
+    case Verb::RemoteEnable:
+      return command.value == 0;
+    case Verb::Switch:
+      return command.text == "emergency_stop" && command.value == 1;
+    default:
+      return false;
+  }
+}
+
+std::optional<std::string> refusal_of_late(const PanelRequest& request) {
+  if (is_stop(request.command) || !request.why_late) return std::nullopt;
+  const std::string why = request.why_late();
+  if (why.empty()) return std::nullopt;
+  return fmt::format("too late: {}; give it again", why);
+}
+
 std::string panel_verbs() {
   std::string text;
   for (const VerbRow& row : kVerbRows) {

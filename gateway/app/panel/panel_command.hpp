@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -42,12 +43,20 @@ inline constexpr std::size_t kMaxPanelLine = 256;  ///< bytes, without its end
 /// printable UTF-8), LimitExceeded (too long).
 Result<PanelCommand> parse_panel_command(std::string_view line);
 
+/// It only stops, or takes the network's permission back: carried out however late it comes.
+bool is_stop(const PanelCommand& command);
+
 /// A command of the panel; `answer` is called once, from the gateway's thread, with one line
 /// that begins with "ok" or "refused".
 struct PanelRequest {
   PanelCommand command;
   std::function<void(std::string)> answer;
+  /// Why its sender no longer waits for it, or may not; empty: it does. Null: always.
+  std::function<std::string()> why_late = nullptr;
 };
+
+/// Why `request` is not carried out now: it has come too late for what it may do.
+std::optional<std::string> refusal_of_late(const PanelRequest& request);
 
 /// The verbs with their arguments, a line each, for help texts.
 std::string panel_verbs();

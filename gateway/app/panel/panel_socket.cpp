@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -25,6 +26,19 @@ namespace {
 
 constexpr std::size_t kMaxAnswers = 16 * 1024;  ///< bytes that a connection does not read
 constexpr int kBacklog = 8;
+
+/// Of the computer, also while it is suspended.
+using BootTime = std::chrono::milliseconds;
+BootTime boot_now() {
+  timespec now{};
+  ::clock_gettime(CLOCK_BOOTTIME, &now);
+  return std::chrono::duration_cast<BootTime>(std::chrono::seconds(now.tv_sec) +
+                                              std::chrono::nanoseconds(now.tv_nsec));
+}
+
+/// The socket's thread looks so often, also when nothing comes: what it finds then is not older
+/// than its last look, unless the process was frozen meanwhile.
+constexpr BootTime kLook{500};
 
 /// A socket's address has room for about a hundred bytes, a path may be longer: the folder is
 /// named by a descriptor.
@@ -45,8 +59,35 @@ const sockaddr* generic(const sockaddr_un& address) {
   return reinterpret_cast<const sockaddr*>(&address);
 }
 
+/// With its requests: they see that the other end has closed it.
+class Socket {
+ public:
+  explicit Socket(Descriptor accepted) : descriptor_(std::move(accepted)) {}
+  int get() const { return descriptor_.get(); }
+  bool is_closed() const { return (events(0) & (POLLHUP | POLLERR)) != 0; }
+  bool is_readable() const { return events(POLLIN) != 0; }
+
+ private:
+  int events(short wanted) const {
+    pollfd polled{get(), wanted, 0};
+    return ::poll(&polled, 1, 0) > 0 ? polled.revents : 0;
+  }
+  Descriptor descriptor_;
+};
+
+/// Empty: who sent a request after `silent_at` waits for its answer.
+std::string why_late(const Socket& socket, BootTime silent_at) {
+  const BootTime age = boot_now() - silent_at;
+  if (socket.is_closed()) return "its sender waits no longer";
+  if (age <= PanelSocket::kMaxAge) return {};
+  return fmt::format(
+      "it may be {:.1f} s old, more than {} s", std::chrono::duration<double>(age).count(),
+      std::chrono::duration_cast<std::chrono::seconds>(PanelSocket::kMaxAge).count());
+}
+
 struct Connection {
-  Descriptor socket;
+  std::shared_ptr<Socket> socket;
+  BootTime silent_at{};  ///< nothing that is not taken had come from it by then
   std::string received, to_send;
   bool is_asking = false;  ///< its last request is not answered yet
   bool is_closing = false;
@@ -116,6 +157,8 @@ class PanelSocket::Server {
   void take_answers();
   void read(std::uint64_t id, Connection& connection);
   void ask(std::uint64_t id, Connection& connection);
+  void close_idle();
+  static void close(const Connection& connection);
   static void reply(Connection& connection, const std::string& line);
   static void send(Connection& connection);
 
@@ -124,25 +167,32 @@ class PanelSocket::Server {
   std::shared_ptr<Answers> answers_;
   std::map<std::uint64_t, Connection> connections_;
   std::uint64_t last_id_ = 0, clock_ = 0;
+  BootTime silent_at_ = boot_now();  ///< no new connection waited then
   std::atomic<bool> is_stopping_{false};
   std::thread thread_;  ///< last: it uses all of the above
 };
 
 void PanelSocket::Server::serve() {
   while (!is_stopping_) {
+    const BootTime looked = boot_now();
     std::vector<pollfd> polled{{listening_.get(), POLLIN, 0}, {answers_->wake.get(), POLLIN, 0}};
     std::vector<std::uint64_t> ids;
     for (const auto& [id, connection] : connections_) {
       const bool may_read = !connection.is_asking && !connection.is_closing;
       const int events = (may_read ? POLLIN : 0) | (connection.to_send.empty() ? 0 : POLLOUT);
-      polled.push_back({connection.socket.get(), static_cast<short>(events), 0});
+      polled.push_back({connection.socket->get(), static_cast<short>(events), 0});
       ids.push_back(id);
     }
-    if (::poll(polled.data(), polled.size(), -1) < 0 && errno != EINTR) return;
+    if (::poll(polled.data(), polled.size(), static_cast<int>(kLook.count())) < 0) {
+      if (errno != EINTR) return;
+      continue;  // nothing was looked at
+    }
     for (std::size_t i = 0; i < ids.size(); ++i) {
       Connection& connection = connections_.at(ids[i]);
       const short events = polled[i + 2].revents;
       if ((events & POLLOUT) != 0) send(connection);
+      const bool is_silent = (polled[i + 2].events & POLLIN) != 0 && (events & POLLIN) == 0;
+      if (is_silent && connection.received.empty()) connection.silent_at = looked;
       if ((events & POLLIN) != 0) read(ids[i], connection);
       if ((events & (POLLERR | POLLNVAL)) != 0 ||
           ((events & POLLHUP) != 0 && (events & POLLIN) == 0))
@@ -150,23 +200,38 @@ void PanelSocket::Server::serve() {
     }
     if (polled[1].revents != 0) take_answers();
     std::erase_if(connections_, [](const auto& entry) {
-      return entry.second.is_closing && entry.second.to_send.empty();
+      const bool is_over = entry.second.is_closing && entry.second.to_send.empty();
+      if (is_over) close(entry.second);
+      return is_over;
     });
-    if (polled[0].revents != 0) accept_one();
+    if (polled[0].revents != 0)
+      accept_one();
+    else
+      silent_at_ = looked;
   }
 }
 
 void PanelSocket::Server::accept_one() {
   Descriptor socket(::accept4(listening_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!socket) return;
-  if (connections_.size() >= kMaxConnections) {
-    connections_.erase(std::min_element(
-        connections_.begin(), connections_.end(),
-        [](const auto& a, const auto& b) { return a.second.last_heard < b.second.last_heard; }));
-  }
+  if (connections_.size() >= kMaxConnections) close_idle();
   Connection& connection = connections_[++last_id_];
-  connection.socket = std::move(socket);
+  connection.socket = std::make_shared<Socket>(std::move(socket));
+  connection.silent_at = silent_at_;
   connection.last_heard = ++clock_;
+}
+
+void PanelSocket::Server::close_idle() {
+  const auto idle = std::min_element(
+      connections_.begin(), connections_.end(),
+      [](const auto& a, const auto& b) { return a.second.last_heard < b.second.last_heard; });
+  close(idle->second);
+  connections_.erase(idle);
+}
+
+/// A request of it may be open, and have the socket: the other end sees now that it is over.
+void PanelSocket::Server::close(const Connection& connection) {
+  ::shutdown(connection.socket->get(), SHUT_RDWR);
 }
 
 void PanelSocket::Server::take_answers() {
@@ -181,6 +246,10 @@ void PanelSocket::Server::take_answers() {
     const auto found = connections_.find(id);
     if (found == connections_.end()) continue;  // it was closed
     found->second.is_asking = false;
+    // What comes from now on was not sent while the answer was awaited.
+    const BootTime looked = boot_now();
+    if (found->second.received.empty() && !found->second.socket->is_readable())
+      found->second.silent_at = looked;
     reply(found->second, line);
     ask(id, found->second);  // its next line may be here already
   }
@@ -188,7 +257,7 @@ void PanelSocket::Server::take_answers() {
 
 void PanelSocket::Server::read(std::uint64_t id, Connection& connection) {
   char bytes[512];
-  const auto count = ::read(connection.socket.get(), bytes, sizeof bytes);
+  const auto count = ::read(connection.socket->get(), bytes, sizeof bytes);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (count <= 0) {
     connection.is_closing = true;
@@ -219,9 +288,12 @@ void PanelSocket::Server::ask(std::uint64_t id, Connection& connection) {
       continue;
     }
     connection.is_asking = true;
-    on_request_({*std::move(command), [answers = answers_, id](std::string answer) {
-                   answers->give(id, std::move(answer));
-                 }});
+    on_request_(
+        {.command = *std::move(command),
+         .answer = [answers = answers_,
+                    id](std::string answer) { answers->give(id, std::move(answer)); },
+         .why_late = [socket = connection.socket,
+                      silent_at = connection.silent_at] { return why_late(*socket, silent_at); }});
   }
 }
 
@@ -236,7 +308,7 @@ void PanelSocket::Server::reply(Connection& connection, const std::string& line)
 }
 
 void PanelSocket::Server::send(Connection& connection) {
-  const auto count = ::send(connection.socket.get(), connection.to_send.data(),
+  const auto count = ::send(connection.socket->get(), connection.to_send.data(),
                             connection.to_send.size(), MSG_NOSIGNAL);
   if (count > 0) {
     connection.to_send.erase(0, static_cast<std::size_t>(count));
@@ -282,7 +354,11 @@ Result<std::string> ask_panel(const std::filesystem::path& folder, const std::st
   while (answer.find('\n') == std::string::npos && answer.size() < kMaxAnswers) {
     pollfd polled{socket.get(), POLLIN, 0};
     if (::poll(&polled, 1, kAnswerMs) <= 0)
-      return fail(Errc::Timeout, "no answer from the gateway of {} within 5 s", folder.string());
+      return fail(
+          Errc::Timeout,
+          "no answer from the gateway of {} within 5 s: when it answers again, a stop still "
+          "takes effect, and nothing else does",
+          folder.string());
     char bytes[512];
     const auto count = ::read(socket.get(), bytes, sizeof bytes);
     if (count <= 0) return fail(Errc::Io, "the gateway of {} closed the panel", folder.string());

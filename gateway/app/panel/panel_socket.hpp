@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -14,11 +15,13 @@ namespace dripline::gateway {
 /// line for each (README.md, "The panel"). A thread of its own does the reading and writing.
 /// Bounded: kMaxConnections at a time, and a new one closes the one that has
 /// been silent longest, so that a stop is always heard; one open request each; kMaxPanelLine bytes
-/// a line.
+/// a line. What is asked more than kMaxAge ago, or by an end that has closed its connection, is
+/// late (PanelRequest::why_late): its sender may have given up, as ask_panel does.
 class PanelSocket {
  public:
   static constexpr std::size_t kMaxConnections = 8;
   static constexpr const char* kName = "panel";
+  static constexpr std::chrono::milliseconds kMaxAge{2000};  ///< less than ask_panel waits
 
   /// `on_request` is called on the socket's thread and returns at once. Requests may be answered
   /// until they are destroyed, also after the socket is. Errors: Io.

@@ -117,6 +117,10 @@ Reply SerialGateway::set_emergency_stop(bool is_pressed, bool is_at_panel) {
 void SerialGateway::on(const PanelRequest& request, SteadyTime) {
   if (request.command.verb == PanelCommand::Verb::Status)
     return request.answer("ok " + panel_status(status()));
+  if (const auto late = refusal_of_late(request)) {
+    process::log_warning("panel refused: {} {}", *late, label());
+    return request.answer("refused " + *late);
+  }
   validity_.note_panel(parts_.clock.steady_now());
   const Reply reply = carry_out(request.command);
   process::log_info("panel {}{}{} {}", reply.is_accepted ? "accepted" : "refused",

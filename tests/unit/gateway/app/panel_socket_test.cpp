@@ -5,9 +5,13 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
+#include <condition_variable>
 #include <cstring>
+#include <mutex>
+#include <thread>
 #include <vector>
 
+#include "protocol/base/descriptor.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::gateway {
@@ -84,6 +88,98 @@ TEST_F(OpenPanel, TakesTheSocketOfAFormerProcessOver) {
   EXPECT_EQ(ask_panel(folder_.path(), "status").error().code, Errc::NotFound);
   SetUp();
   EXPECT_EQ(ask_panel(folder_.path(), "answer again").value(), "ok again");
+}
+
+/// What a panel was asked, for a test that answers as late as it wants.
+class HeldPanel : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto opened = PanelSocket::open(folder_.path(), [this](PanelRequest request) {
+      std::unique_lock lock(mutex_);
+      asked_.push_back(std::move(request));
+      changed_.notify_all();
+      changed_.wait(lock, [this] { return !is_frozen_; });
+    });
+    ASSERT_TRUE(opened) << opened.error().what;
+    socket_ = *std::move(opened);
+  }
+  void TearDown() override { set_frozen(false); }
+  /// The socket's thread stops at its next request, as a process that is stopped.
+  void set_frozen(bool is_frozen) {
+    const std::lock_guard lock(mutex_);
+    is_frozen_ = is_frozen;
+    changed_.notify_all();
+  }
+  Descriptor ask(const std::string& line) const {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const std::string path = folder_.path() / "panel";
+    std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+    Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    EXPECT_EQ(::connect(socket.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::write(socket.get(), line.data(), line.size()), static_cast<ssize_t>(line.size()));
+    return socket;
+  }
+  /// Why the request of this number is late.
+  std::string late(std::size_t number) {
+    std::unique_lock lock(mutex_);
+    const bool is_there =
+        changed_.wait_for(lock, std::chrono::seconds(30), [&] { return asked_.size() > number; });
+    EXPECT_TRUE(is_there);
+    return is_there ? asked_[number].why_late() : "not there";
+  }
+  static void outlast_the_limit() {
+    std::this_thread::sleep_for(PanelSocket::kMaxAge + std::chrono::seconds(1));
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<PanelRequest> asked_;
+  bool is_frozen_ = false;
+  std::unique_ptr<PanelSocket> socket_;
+};
+
+/// However long the panel was silent before.
+TEST_F(HeldPanel, ARequestIsNotLateAtFirst) {
+  outlast_the_limit();
+  const Descriptor one = ask("cycle-start\n");
+  EXPECT_EQ(late(0), "");
+  outlast_the_limit();
+  EXPECT_NE(late(0).find(" s old"), std::string::npos) << late(0);
+}
+
+TEST_F(HeldPanel, ARequestWhoseSenderHasGoneIsLate) {
+  Descriptor one = ask("cycle-start\n");
+  (void)late(0);
+  one = Descriptor();
+  EXPECT_EQ(late(0), "its sender waits no longer");
+}
+
+/// The process may not have been executed when it came: its age counts from the last look.
+TEST_F(HeldPanel, WhatCameWhileTheProcessWasStoppedIsLate) {
+  set_frozen(true);
+  const Descriptor first = ask("status\n");
+  (void)late(0);
+  const Descriptor second = ask("cycle-start\n");
+  outlast_the_limit();
+  set_frozen(false);
+  EXPECT_NE(late(1).find(" s old"), std::string::npos) << late(1);
+}
+
+/// The time of an answer is not the next request's.
+TEST_F(HeldPanel, TheNextRequestOfASlowOneIsNotLate) {
+  const Descriptor one = ask("status\n");
+  (void)late(0);
+  outlast_the_limit();
+  {
+    const std::lock_guard lock(mutex_);
+    asked_[0].answer("ok");
+  }
+  char answer[3];
+  ASSERT_EQ(::read(one.get(), answer, sizeof answer), 3);
+  ASSERT_EQ(::write(one.get(), "hold\n", 5), 5);
+  EXPECT_EQ(late(1), "");
 }
 
 TEST(PanelSocket, NeedsNoShortPath) {

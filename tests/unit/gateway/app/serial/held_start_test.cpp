@@ -24,13 +24,17 @@ class HeldStart : public SerialGatewayTest {
 
 TEST_F(HeldStart, SendsNothingBeforeCycleStart) {
   begin_looking();
-  EXPECT_EQ(panel("hold"), "ok");
+  EXPECT_EQ(panel("hold", "its sender waits no longer"), "ok") << "however late";
   EXPECT_EQ(status().execution, dds::Execution::FeedHold);
   EXPECT_EQ(status().message.find("held; looking through the program"), 0u) << status().message;
   connect(true);
   pass(30s);
   EXPECT_EQ(wire_.sent, "");
   EXPECT_EQ(status().waits_for, dds::WaitsFor::CycleStart) << status().message;
+  EXPECT_EQ(panel("cycle-start", "its sender waits no longer"),
+            "refused too late: its sender waits no longer; give it again");
+  pass(1s);
+  EXPECT_EQ(wire_.sent, "");
   EXPECT_EQ(panel("cycle-start"), "ok");
   EXPECT_TRUE(pass_until([&] { return wire_.sent.find("N1500") != std::string::npos; }, 30s));
 }

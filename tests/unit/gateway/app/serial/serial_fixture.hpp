@@ -148,11 +148,12 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
     EXPECT_TRUE(answer_);
     return answer_.value_or(dds::LineData{});
   }
-  std::string panel(const std::string& line) {
+  std::string panel(const std::string& line, const std::string& why_late = "") {
     std::string answer;
-    gateway_->receive(PanelRequest{parse_panel_command(line).value(),
-                                   [&](std::string text) { answer = std::move(text); }},
-                      clock_.steady_now());
+    gateway_->receive(
+        PanelRequest{parse_panel_command(line).value(),
+                     [&](std::string text) { answer = std::move(text); }, [&] { return why_late; }},
+        clock_.steady_now());
     return answer;
   }
   dds::Status status() const { return gateway_->status(); }
