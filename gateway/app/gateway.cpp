@@ -59,7 +59,8 @@ Gateway::Gateway(Parts parts)
                  [this] {
                    if (line_) line_->on_run_over();
                    server_.want_status();
-                 }}),
+                 },
+             .serve_panel = [this] { serve_stops(); }}),
       positions_({.dialect = parts_.dialect,
                   .setup = parts_.setup,
                   .machine = *machine_,
@@ -107,6 +108,16 @@ Result<void> Gateway::recover() {
   }
   if (line_ && outbox_.active_run()) line_->doubt_text();
   return loop_.recover();
+}
+
+/// How far the interrupted run has come is not known yet: only a stop may change anything.
+void Gateway::serve_stops() {
+  for (const PanelRequest& request : parts_.take_panel()) {
+    if (is_stop(request.command))
+      on(request, parts_.clock.steady_now());
+    else
+      request.answer("refused the gateway waits to see where the axes rest: again in some seconds");
+  }
 }
 
 void Gateway::receive(const Incoming& incoming, SteadyTime now) {

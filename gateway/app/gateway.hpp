@@ -37,6 +37,10 @@ class Gateway final : public MachineGateway {
     machine::MotionFactory make_motion;  ///< makes what moves the machine
     std::uint64_t session = 0;           ///< of this process, not zero
     feed::ControlLine* line = nullptr;   ///< programs come from it instead of the server
+    /// What waits from the machine's panel, while recover keeps the inbox waiting.
+    std::function<std::vector<PanelRequest>()> take_panel = [] {
+      return std::vector<PanelRequest>();
+    };
   };
   /// All references must outlive it.
   explicit Gateway(Parts parts);
@@ -81,6 +85,7 @@ class Gateway final : public MachineGateway {
   Reply set_position(const dds::Command& command);
   std::optional<Reply> begin_jog(const dds::Command& command);
   bool stop_jog(std::string_view why);
+  void serve_stops();
   bool stop_homing(std::string_view why);
   bool stop_without_run(std::string_view why);
   void on_jog(const dds::Command& command);

@@ -26,4 +26,16 @@ std::vector<Incoming> Inbox::take(SteadyTime deadline) {
   return std::exchange(waiting_, {});
 }
 
+std::vector<PanelRequest> Inbox::take_panel() {
+  std::vector<PanelRequest> requests;
+  const std::lock_guard lock(mutex_);
+  std::erase_if(waiting_, [&requests](Incoming& incoming) {
+    auto* const request = std::get_if<PanelRequest>(&incoming);
+    if (request != nullptr) requests.push_back(std::move(*request));
+    return request != nullptr;
+  });
+  others_ -= requests.size();
+  return requests;
+}
+
 }  // namespace dripline::gateway

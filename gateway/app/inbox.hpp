@@ -32,6 +32,9 @@ class Inbox {
   /// For the owner: everything posted so far; waits until there is something, or until `deadline`.
   std::vector<Incoming> take(SteadyTime deadline);
 
+  /// For the owner while it waits for something else: the requests of the panel alone, at once.
+  std::vector<PanelRequest> take_panel();
+
   static constexpr std::size_t kMaxBlocks = 160;  ///< of at most 32 KiB each
   static constexpr std::size_t kMaxOthers = 1024;
 

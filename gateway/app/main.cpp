@@ -144,7 +144,8 @@ Result<void> run(const GatewayOptions& options) {
                    .clock = around.clock,
                    .make_motion = *std::move(motion),
                    .session = around.session,
-                   .line = line->get()});
+                   .line = line->get(),
+                   .take_panel = [&around] { return around.inbox.take_panel(); }});
   return around.run(gateway);
 }
 

@@ -43,6 +43,7 @@ class RunLoop {
     CurrentRun& run;
     std::function<void(const interpreter::Setup&)> on_begin;  ///< with the setup that is used
     std::function<void()> on_over;                            ///< the session is gone
+    std::function<void()> serve_panel;  ///< again and again while recover waits
   };
   /// All references must outlive it.
   explicit RunLoop(Parts parts) : parts_(std::move(parts)) {}

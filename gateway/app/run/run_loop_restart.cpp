@@ -124,6 +124,7 @@ void RunLoop::resolve_interrupted(const std::string& run, RunEnding& ending) {
   const SteadyTime limit = parts_.clock.steady_now() + kRestWait;
   auto at = parts_.machine.rests_at();
   for (; !at && parts_.clock.steady_now() < limit; at = parts_.machine.rests_at()) {
+    parts_.serve_panel();
     (void)parts_.machine.poll(machine::Seconds{0}, 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

@@ -71,6 +71,7 @@ void GatewayFixture::restart_gateway() {
           motion ? motion
                  : make_motion("simulated", control_, {.workpiece = setup.workpiece}).value(),
       .session = static_cast<std::uint64_t>(++sessions_)};
+  if (take_panel) parts.take_panel = take_panel;
   gateway = std::make_unique<Gateway>(std::move(parts));
   if (const auto done = gateway->recover(); !done) throw std::runtime_error(done.error().what);
   gateway->receive(ServerSeen{is_up}, clock.steady);

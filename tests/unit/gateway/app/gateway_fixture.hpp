@@ -91,6 +91,8 @@ class GatewayFixture : public dds::GatewayEndpoint {
   interpreter::Setup setup;
   std::string setup_digest = std::string(64, 'b');  ///< as if a file had its text
   machine::MotionFactory motion;  ///< empty: the simulated machine; from the next gateway on
+  /// While a gateway recovers; from the next gateway on.
+  std::function<std::vector<PanelRequest>()> take_panel;
   std::unique_ptr<Gateway> gateway;
   std::function<void()> each_turn;  ///< of `run_until`: what a device does meanwhile
   std::filesystem::path folder() const { return folder_.path(); }

@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include "gateway/report/motion_journal.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
+#include "tests/unit/gateway/app/toy_motion.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+/// As a device whose link is not there yet; it is seen to rest when the stop is pressed.
+class SlowToRest : public ToyMotion {
+ public:
+  SlowToRest(machine::ExecutionSink& sink, int& looks) : ToyMotion(sink), looks_(looks) {}
+  std::optional<machine::GivenAction::Point> rests_at() const override {
+    constexpr int kEnough = 300;  // 3 s: a gateway that serves no panel fails its test, and ends
+    if (!panel().emergency_stop && ++looks_ < kEnough) return std::nullopt;
+    return machine::GivenAction::Point{};
+  }
+
+ private:
+  int& looks_;
+};
+
+TEST(PanelOfAGatewayThatRecovers, TakesStopsAndNothingElse) {
+  GatewayFixture fixture{"1x"};
+  int looks = 0;
+  fixture.motion = [&looks](machine::ExecutionSink& sink) {
+    return std::make_unique<SlowToRest>(sink, looks);
+  };
+  fixture.restart_gateway();
+  fixture.push("O1", "X1\nSTOP\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  fixture.close_gateway();
+  {
+    auto journal = report::MotionJournal::open(fixture.folder() / "motion.journal").value();
+    report::MotionJournal::Entry entry;
+    entry.place.executed = entry.action.origin.block = 100;
+    entry.action.kind = machine::GivenAction::Kind::Motion;
+    entry.action.ends_block = true;
+    entry.action.end[0] = 1;
+    journal.begin("run-1");
+    journal.write(entry);
+  }
+  std::vector<std::string> answers;
+  fixture.take_panel = [&] {
+    std::vector<PanelRequest> requests;
+    if (!answers.empty()) return requests;
+    for (const char* line : {"home", "emergency-stop"})
+      requests.push_back({.command = parse_panel_command(line).value(),
+                          .answer = [&](std::string text) { answers.push_back(text); }});
+    return requests;
+  };
+  looks = 0;
+  fixture.restart_gateway();
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_TRUE(answers[0].starts_with("refused the gateway waits")) << answers[0];
+  EXPECT_EQ(answers[1], "ok");
+  EXPECT_LT(looks, 3) << "and it took effect at once";
+  EXPECT_NE(fixture.panel("status").find("emergency_stop=pressed"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dripline::gateway
