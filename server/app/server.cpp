@@ -61,6 +61,7 @@ Result<void> Server::end() {
   if (parts_->fetcher) parts_->fetcher->end();
   parts_->machine_service.stop_waiting();
   parts_->measurements.end();  // it may hold a machine
+  parts_->webhooks.stop();     // before the requests: one may wait for a test
   if (parts_->retention) parts_->retention->end();
   parts_->offsets.end();
   if (parts_->publisher) parts_->publisher->end();

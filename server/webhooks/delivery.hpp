@@ -8,6 +8,7 @@
 
 #include "protocol/base/digest.hpp"
 #include "protocol/base/result.hpp"
+#include "server/webhooks/name_lookup.hpp"
 #include "storage/webhook_store.hpp"
 
 namespace dripline::webhooks {
@@ -33,8 +34,10 @@ class Sender {
 };
 
 /// Over HTTP and HTTPS (cpp-httplib). The authorities of HTTPS are the system's. `timeout` is for
-/// the connection, for each piece of the answer, and, three times, for all of it.
-std::unique_ptr<Sender> make_http_sender(std::chrono::milliseconds timeout);
+/// a connection, for each piece of the answer, and, three times, for all of it: the host's name,
+/// its addresses one after another, TLS and the answer.
+std::unique_ptr<Sender> make_http_sender(std::chrono::milliseconds timeout,
+                                         NameLookup lookup = look_up);
 
 /// `server` is the identity of the database: together with the event's number it is unique.
 Delivery make_delivery(const storage::Webhook& webhook, const storage::Event& event,

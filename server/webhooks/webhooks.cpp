@@ -40,6 +40,7 @@ void Webhooks::stop() {
     is_stopping_ = true;
     ended.swap(workers_);
   }
+  tests_.request_stop();
   for (auto& [id, worker] : ended) worker.request_stop();
 }
 
@@ -104,7 +105,7 @@ Result<void> Webhooks::test(const std::string& name) {
                              .kind = "test",
                              .data = fmt::format(R"({{"webhook":"{}"}})", name)};
   auto delivery = make_delivery(*webhook, event, parts_.server, parts_.clock.now());
-  return parts_.sender.send(delivery, {});
+  return parts_.sender.send(delivery, tests_.get_token());
 }
 
 void Webhooks::sleep(const std::stop_token& stop, std::chrono::milliseconds pause) {

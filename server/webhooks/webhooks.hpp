@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -40,7 +41,8 @@ class Webhooks {
 
   /// Begins to deliver.
   void begin();
-  /// Before it is destroyed: no more deliveries begin.
+  /// Before it is destroyed: no more deliveries begin, and those in progress, tests with them, are
+  /// cut off.
   void stop();
 
   Result<std::vector<storage::Webhook>> list() { return parts_.store.list(); }
@@ -77,6 +79,7 @@ class Webhooks {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   bool is_stopping_ = false;
+  std::stop_source tests_;  ///< ends those in progress
   /// One for each webhook, so that one that hangs delays no other. Last: they use the others.
   std::map<std::uint64_t, std::jthread> workers_;
 };

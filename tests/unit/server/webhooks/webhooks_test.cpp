@@ -1,18 +1,12 @@
 #include "server/webhooks/webhooks.hpp"
 
-#include <arpa/inet.h>
-#include <httplib.h>
-#include <sys/socket.h>
-#include <sys/time.h>
-#include <atomic>
-#include <cerrno>
-#include <deque>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "protocol/base/descriptor.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
+#include "tests/unit/server/webhooks/silent_lookup.hpp"
 
 namespace dripline::webhooks {
 namespace {
@@ -203,147 +197,33 @@ TEST_F(WebhooksTest, ATestIsDeliveredAtOnce) {
   EXPECT_EQ(hooks_->test("none").error().code, Errc::NotFound);
 }
 
-/// Answers with a status line that never ends.
-class EndlessReceiver {
- public:
-  EndlessReceiver() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in own{};
-    own.sin_family = AF_INET;
-    own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof own;
-    auto* const address = reinterpret_cast<sockaddr*>(&own);
-    EXPECT_EQ(::bind(listener_.get(), address, size), 0);
-    EXPECT_EQ(::listen(listener_.get(), 1), 0);
-    EXPECT_EQ(::getsockname(listener_.get(), address, &size), 0);
-    port_ = ntohs(own.sin_port);
-    thread_ = std::thread([this] { answer(); });
-  }
-  ~EndlessReceiver() {
-    is_over_ = true;
-    thread_.join();
-  }
-  int port() const { return port_; }
-  std::size_t written() const { return written_; }
-
- private:
-  void answer() {
-    const Descriptor connection(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
-    // A peer that closed with its window full answers the kernel's probes only now and then.
-    const timeval patience{.tv_sec = 0, .tv_usec = 20'000};
-    ::setsockopt(connection.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-    const std::string piece(65536, 'x');
-    while (!is_over_) {
-      const auto sent = ::send(connection.get(), piece.data(), piece.size(), MSG_NOSIGNAL);
-      if (sent < 0 && errno != EAGAIN) return;
-      if (sent > 0) written_ += static_cast<std::size_t>(sent);
-    }
-  }
-  Descriptor listener_;
-  int port_ = 0;
-  std::atomic<std::size_t> written_ = 0;
-  std::atomic<bool> is_over_ = false;
-  std::thread thread_;
-};
-
-/// The real sender, against a real receiver.
-class HttpSenderTest : public testing::Test {
- protected:
-  HttpSenderTest() {
-    server_.Post("/hook", [this](const httplib::Request& request, httplib::Response& response) {
-      seen_ = request;
-      response.status = 204;
-    });
-    server_.Post("/moved", [](const httplib::Request&, httplib::Response& response) {
-      response.set_redirect("/hook");
-    });
-    server_.Post("/long", [](const httplib::Request& request, httplib::Response& response) {
-      response.set_content(std::string(10'000'000, 'x'), "text/plain");
-      response.status = request.has_param("bad") ? 500 : 200;
-    });
-    server_.Post("/drip", [](const httplib::Request&, httplib::Response& response) {
-      response.set_chunked_content_provider("text/plain", [](std::size_t, httplib::DataSink& sink) {
-        test_support::wait_a_little();
-        return sink.write("x", 1);
-      });
-    });
-    port_ = server_.bind_to_any_port("127.0.0.1");
-    thread_ = std::thread([this] { server_.listen_after_bind(); });
-    while (!server_.is_running()) test_support::wait_a_little();
-  }
-  ~HttpSenderTest() override {
-    server_.stop();
-    thread_.join();
-  }
-  Result<void> send(const std::string& path, const std::stop_token& stop = {},
-                    std::chrono::milliseconds timeout = std::chrono::milliseconds(300)) {
-    Delivery delivery;
-    delivery.url = fmt::format("http://127.0.0.1:{}{}", port_, path);
-    delivery.id = "db-1";
-    delivery.kind = "run";
-    delivery.timestamp = "42";
-    delivery.signature = "sha256=00";
-    delivery.body = "{}";
-    return make_http_sender(timeout)->send(delivery, stop);
-  }
-  httplib::Server server_;
-  httplib::Request seen_;
-  int port_ = 0;
-  std::thread thread_;
-};
-
-TEST_F(HttpSenderTest, PostsTheBodyWithItsHeader) {
-  ASSERT_TRUE(send("/hook"));
-  EXPECT_EQ(seen_.body, "{}");
-  EXPECT_EQ(seen_.get_header_value("Content-Type"), "application/json");
-  EXPECT_EQ(seen_.get_header_value("Dripline-Delivery"), "db-1");
-  EXPECT_EQ(seen_.get_header_value("Dripline-Signature"), "sha256=00");
-}
-
-TEST_F(HttpSenderTest, FollowsNoRedirectionAndNamesTheStatus) {
-  const auto moved = send("/moved");
-  ASSERT_FALSE(moved);
-  EXPECT_NE(moved.error().what.find("302"), std::string::npos) << moved.error().what;
-  EXPECT_EQ(seen_.body, "");
-  EXPECT_NE(send("/nothing").error().what.find("404"), std::string::npos);
-}
-
-TEST_F(HttpSenderTest, TakesTheStatusOfAnAnswerThatIsTooLong) {
-  constexpr std::chrono::seconds kPatience{10};  // of a busy computer
-  const auto sent = send("/long", {}, kPatience);
-  EXPECT_TRUE(sent) << sent.error().what;
-  const auto refused = send("/long?bad=1", {}, kPatience);
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().what.find("500"), std::string::npos) << refused.error().what;
-}
-
-TEST_F(HttpSenderTest, AReceiverThatDripsIsCutOff) {
+/// `remove` and the server's end wait for neither.
+TEST_F(WebhooksTest, AreStoppedWhateverTheirNameServerDoes) {
+  const SilentLookup silent;
+  const auto sender = make_http_sender(std::chrono::minutes(1), silent.lookup());
+  Webhooks hooks({.store = store_->webhooks, .sender = *sender, .clock = clock_, .server = "db"},
+                 {.look = std::chrono::milliseconds(5)});
+  ASSERT_TRUE(hooks.add({.name = "erp", .url = "http://erp.example/"}, "admin"));
+  push("O1", "%C1\n");
+  ASSERT_TRUE(test_support::eventually([&] { return silent.is_asked(); }));
   const auto begun = std::chrono::steady_clock::now();
-  EXPECT_FALSE(send("/drip"));
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_FALSE(send("/drip", stop.get_token()));
-}
-
-/// A head without an end: nothing of it is a reason to grow.
-TEST_F(HttpSenderTest, AHeadWithoutAnEndIsCutOff) {
-  const auto begun = std::chrono::steady_clock::now();
-  EndlessReceiver receiver;
-  Delivery delivery;
-  delivery.url = fmt::format("http://127.0.0.1:{}/", receiver.port());
-  const auto sent = make_http_sender(std::chrono::seconds(5))->send(delivery, {});
-  ASSERT_FALSE(sent);
-  EXPECT_EQ(sent.error().code, Errc::LimitExceeded) << sent.error().what;
-  EXPECT_LT(receiver.written(), 64u * 1024 * 1024);
+  EXPECT_TRUE(hooks.remove("erp", "admin"));
   EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
 }
 
-TEST_F(HttpSenderTest, NobodyThereIsATimeout) {
-  Delivery nowhere;
-  nowhere.url = "http://127.0.0.1:1/";
-  const auto sent = make_http_sender(std::chrono::milliseconds(300))->send(nowhere, {});
-  ASSERT_FALSE(sent);
-  EXPECT_EQ(sent.error().code, Errc::Timeout);
+TEST_F(WebhooksTest, AStopEndsATestThatIsInProgress) {
+  const SilentLookup silent;
+  const auto sender = make_http_sender(std::chrono::minutes(1), silent.lookup());
+  Webhooks hooks({.store = store_->webhooks, .sender = *sender, .clock = clock_, .server = "db"},
+                 {});
+  ASSERT_TRUE(hooks.add({.name = "erp", .url = "http://erp.example/"}, "admin"));
+  const auto begun = std::chrono::steady_clock::now();
+  const std::jthread stopper([&] {
+    EXPECT_TRUE(test_support::eventually([&] { return silent.is_asked(); }));
+    hooks.stop();
+  });
+  EXPECT_FALSE(hooks.test("erp"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
 }
 
 }  // namespace
