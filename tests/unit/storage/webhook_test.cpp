@@ -209,6 +209,25 @@ TEST_P(WebhookEvents, AreKeptUntilEveryWebhookHasThem) {
   EXPECT_EQ(add("three").delivered, all.back().id) << "numbers are never used twice";
 }
 
+/// Who reads the audit trail is not to know what a path or query may hold.
+TEST_P(WebhookEvents, AreAuditedWithoutTheSecretsOfAUrl) {
+  Webhook webhook;
+  webhook.name = "chat";
+  webhook.secret = "s3cret";
+  webhook.author = "admin";
+  for (const char* rest : {"/hooks/T0KEN", "?key=T0KEN", ""}) {
+    webhook.url = std::string("https://chat.example:8443") + rest;
+    ASSERT_TRUE(store_->webhooks.add(webhook, "admin"));
+    const auto added = store_->audit.list({.limit = 1})->at(0);
+    EXPECT_EQ(added.action, "webhook.add");
+    EXPECT_EQ(added.detail, "https://chat.example:8443");
+    ASSERT_TRUE(store_->webhooks.remove("chat", "admin", clock_.now()));
+    const auto removed = store_->audit.list({.limit = 1})->at(0);
+    EXPECT_EQ(removed.action, "webhook.remove");
+    EXPECT_EQ(removed.detail, "https://chat.example:8443");
+  }
+}
+
 TEST_P(WebhookEvents, OfAFailingWebhookSayHowItFails) {
   const auto hook = add("erp");
   const UtcTime since = clock_.now();
