@@ -62,7 +62,8 @@ class Rfc2217Channel final : public Channel {
   std::vector<std::byte> output_;  ///< encoded, not yet accepted by the socket
   std::deque<std::byte> early_;    ///< characters that came while opening
   std::vector<ComPortCommand> unanswered_;
-  std::string refused_;  ///< the settings that the server changed
+  std::vector<ComPortCommand> agreed_;  ///< rate and format
+  std::string refused_;  ///< the settings that the server has changed, with those of ours
   std::optional<wire::LineFault> fault_;
   std::optional<wire::InputLines> lines_;
   std::optional<bool> is_supported_;
@@ -91,22 +92,38 @@ std::optional<std::byte> Rfc2217Channel::digest(std::byte raw) {
   if (const auto* lines = std::get_if<wire::InputLines>(&*event)) lines_ = *lines;
   if (const auto* flow = std::get_if<FlowSeen>(&*event)) is_suspended_ = flow->is_suspended;
   if (const auto* answer = std::get_if<AnswerSeen>(&*event)) take(*answer);
-  if (const auto* agreed = std::get_if<ComPortAgreed>(&*event))
+  if (const auto* agreed = std::get_if<ComPortAgreed>(&*event)) {
+    if (is_supported_.value_or(false) && !agreed->is_supported && refused_.empty())
+      refused_ = "the device server offers RFC 2217 no longer: its rate and format are not known";
     is_supported_ = agreed->is_supported;
+  }
   return std::nullopt;
 }
 
-/// Servers answer each command once, in order. Only rate and format must be as requested: a server
-/// may change flow control and masks.
+/// Servers answer each command once, in order. Only rate and format must be as requested, also when
+/// a server reports them later: characters of another rate would be others. It may change flow
+/// control and masks.
 void Rfc2217Channel::take(const AnswerSeen& seen) {
   const auto asked = std::find_if(
       unanswered_.begin(), unanswered_.end(),
       [&](const ComPortCommand& command) { return command.command == seen.answer.command; });
-  if (asked == unanswered_.end()) return;
   const bool must_fit = seen.answer.command <= ComPort::SetStopSize;
+  const auto agreed = std::find_if(
+      agreed_.begin(), agreed_.end(),
+      [&](const ComPortCommand& command) { return command.command == seen.answer.command; });
+  if (asked == unanswered_.end()) {
+    if (agreed != agreed_.end() && *agreed != seen.answer && refused_.empty())
+      refused_ = fmt::format("the device server has {} now, {} was agreed", to_string(seen.answer),
+                             to_string(*agreed));
+    return;
+  }
   if (must_fit && *asked != seen.answer && refused_.empty())
     refused_ = fmt::format("{} was asked for, the device server has {}", to_string(*asked),
                            to_string(seen.answer));
+  if (agreed != agreed_.end())
+    *agreed = *asked;
+  else if (must_fit)
+    agreed_.push_back(*asked);
   unanswered_.erase(asked);
 }
 
@@ -130,6 +147,7 @@ Result<Received> Rfc2217Channel::read(std::span<std::byte> room) {
 }
 
 Result<std::size_t> Rfc2217Channel::write(std::span<const std::byte> bytes) {
+  if (!refused_.empty()) return fail(Errc::Io, "{}: {}", name_, refused_);
   if (const auto done = flush(); !done) return fail(done.error());
   if (!output_.empty() || is_suspended_) return std::size_t{0};
   client_.encode(bytes, output_);

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 #include <netinet/tcp.h>
+#include <array>
+#include <memory>
+#include <thread>
 
 #include "protocol/serial/channel.hpp"
 #include "tests/support/child_process.hpp"
@@ -108,6 +111,78 @@ TEST(TcpChannel, NoticesAPulledCable) {
             0);
   EXPECT_EQ(keepalive, 1);
   EXPECT_EQ(timeout, 10'000);
+}
+
+/// A device server (RFC 2217) that has agreed to rate and format, in the test's hands.
+class DeviceServer : public testing::Test {
+ protected:
+  DeviceServer() {
+    std::thread server([this] { agree(); });
+    wire::LineSettings settings;
+    settings.baud = 9600;
+    auto opened =
+        open_channel("rfc2217://127.0.0.1:" + std::to_string(peer_.port()), settings, 10s);
+    server.join();
+    EXPECT_TRUE(opened) << opened.error().what;
+    if (opened) channel_ = *std::move(opened);
+  }
+  static std::string answer(char code, const std::string& value) {
+    return "\xff\xfa\x2c" + std::string(1, static_cast<char>(code + 100)) + value + "\xff\xf0";
+  }
+  /// What the channel fails with; empty: it does not.
+  std::string fault() {
+    std::array<std::byte, 8> room;
+    std::string what;
+    EXPECT_TRUE(eventually([&] {
+      const auto got = channel_->read(room);
+      if (!got) what = got.error().what;
+      return !got || got->bytes > 0;
+    }));
+    return what;
+  }
+
+  TcpPeer peer_;
+  std::unique_ptr<Channel> channel_;
+
+ private:
+  void agree() {
+    ASSERT_TRUE(peer_.accept());
+    peer_.write("\xff\xfd\x2c");  // DO COM-PORT
+    std::string asked;
+    while (asked.find("\xff\xfa\x2c\x04") == std::string::npos) {
+      const std::string more = peer_.read(1);
+      ASSERT_FALSE(more.empty());
+      asked += more;
+    }
+    asked += peer_.read(3);
+    for (char code = 1; code <= 4; ++code) {
+      const auto at = asked.find("\xff\xfa\x2c" + std::string(1, code)) + 4;
+      peer_.write(answer(code, asked.substr(at, asked.find("\xff\xf0", at) - at)));
+    }
+  }
+};
+
+const std::string kBaud9600("\0\0\x25\x80", 4), kBaud1200("\0\0\x04\xb0", 4);
+
+TEST_F(DeviceServer, EndsTheLineWhereItsRateHasChanged) {
+  ASSERT_TRUE(channel_);
+  peer_.write(answer(1, kBaud1200));
+  const std::string what = fault();
+  EXPECT_NE(what.find("baud 1200"), std::string::npos) << what;
+  EXPECT_NE(what.find("baud 9600"), std::string::npos) << what;
+  EXPECT_FALSE(channel_->write(std::as_bytes(std::span("G1 X5\n", 6))));
+}
+
+TEST_F(DeviceServer, MayReportTheRateThatItHas) {
+  ASSERT_TRUE(channel_);
+  peer_.write(answer(1, kBaud9600) + "A");
+  EXPECT_EQ(fault(), "");
+}
+
+TEST_F(DeviceServer, EndsTheLineWhereItIsNoDeviceServerAnyMore) {
+  ASSERT_TRUE(channel_);
+  peer_.write("\xff\xfe\x2c");  // DONT COM-PORT
+  EXPECT_NE(fault().find("RFC 2217"), std::string::npos);
 }
 
 TEST(TcpChannel, GivesUpWaitingForAServerThatIsNoDeviceServer) {
