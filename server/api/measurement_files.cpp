@@ -87,6 +87,8 @@ Response file_response(storage::MeasurementStore& store, const storage::Measurem
   }
   auto all = all_measurements(store, filter, kMaxInFile);
   if (!all) return error_response(all.error());
+  if (all->empty())
+    return error_response({Errc::NotFound, "no measurement is there of what was asked for"});
   measurement_files::ListSource source(*std::move(all));
   Response response;
   response.content_type = found->content_type;

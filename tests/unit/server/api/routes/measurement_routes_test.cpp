@@ -192,8 +192,12 @@ TEST_F(MeasurementRoutes, ExportFilesForOthers) {
   EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
   EXPECT_NE(body(page).find("D, bore"), std::string::npos);
   expect_error(get("/api/v1/measurements?format=points"), 404, "not_found", "X, Y or Z");
-  expect_error(get("/api/v1/measurements?format=qif&machine=none"), 413, "limit_exceeded",
-               "measurement");
+  for (const char* format :
+       {"dfq", "dfd", "dfx", "dfq-utf8", "dfd-utf8", "qif", "html", "points", "dxf", "stl"}) {
+    SCOPED_TRACE(format);
+    expect_error(get(fmt::format("/api/v1/measurements?format={}&machine=none", format)), 404,
+                 "not_found", "measurement");
+  }
 }
 
 TEST_F(MeasurementRoutes, TryATemplateOnARun) {
