@@ -43,8 +43,9 @@ class BrokerLink {
   /// `subscribed`: a topic whose messages are wanted; empty: none. Errors: Io, Denied (TLS files,
   /// password).
   virtual Result<void> open(const Message& will, const std::string& subscribed) = 0;
-  /// Hands a message to the connection, without waiting for the broker. Errors: Io, LimitExceeded
-  /// (the broker takes no message of this size).
+  /// Hands a message to the connection, without waiting for the broker. The number grows from
+  /// message to message of a connection. Errors: Io, LimitExceeded (the broker takes no message of
+  /// this size), Unsupported (nor of this QoS).
   virtual Result<std::uint64_t> publish(const Message& message) = 0;
   /// Sends and receives, until something has happened or the time is over.
   virtual Progress wait(std::chrono::milliseconds limit) = 0;
@@ -56,7 +57,8 @@ class BrokerLink {
   virtual void drop() = 0;
 };
 
-/// Over libmosquitto. `client_id` must not be used by another client of the broker.
-std::unique_ptr<BrokerLink> make_mosquitto_link(MqttSettings settings, std::string client_id);
+/// MQTT over TCP, with TLS or without. `client_id` must not be used by another client of the
+/// broker.
+std::unique_ptr<BrokerLink> make_mqtt_link(MqttSettings settings, std::string client_id);
 
 }  // namespace dripline::mqtt

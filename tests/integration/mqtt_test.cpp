@@ -12,6 +12,7 @@
 #include "tests/integration/mqtt_broker.hpp"
 #include "tests/support/program_generator.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/unit/protocol/serial/tcp_peer.hpp"
 
 namespace dripline::integration {
 namespace {
@@ -307,6 +308,39 @@ TEST_F(Mqtt, MachinesAreDevicesOfASparkplugNode) {
   system_.server().signal(SIGTERM);
   EXPECT_EQ(system_.server().wait(), 0);
   EXPECT_TRUE(gets("NDEATH/dnc", dead + 2));
+}
+
+/// The server lives, and names what the broker has sent.
+TEST_F(Mqtt, BytesOfABrokerThatAreNoMqttAreAFaultAndNoMore) {
+  struct Case {
+    const char* what;
+    std::string bytes, fault;
+  };
+  const std::vector<Case> cases{
+      {"an undefined property", {"\x20\x05\0\0\x02\x7f\x01", 7}, "property 127"},
+      {"256 MB by the header", "\x30\xff\xff\xff\x7f" + std::string(200'000, 'x'),
+       "a packet of 268435455 bytes: at most 262144"},
+      {"no MQTT", "HTTP/1.1 400 Bad Request\r\n" + std::string(100, ' '), "a packet of type 4"}};
+  serial::TcpPeer peer;
+  ASSERT_TRUE(peer.is_listening());
+  configure("broker = \"mqtt://127.0.0.1:" + std::to_string(peer.port()) + "\"\n");
+  system_.start_server();
+  for (const auto& one : cases) {
+    SCOPED_TRACE(one.what);
+    const auto has_fault = [&] {
+      if (peer.accept(1000)) {
+        peer.read(20);
+        peer.write(one.bytes);
+      }
+      const auto fault = state().value("fault", json());
+      return fault.is_string() && fault.get<std::string>().find(one.fault) != std::string::npos;
+    };
+    ASSERT_TRUE(eventually(has_fault, seconds(120))) << state() << system_.server().output();
+  }
+  EXPECT_TRUE(system_.server().is_running());
+  EXPECT_FALSE(state().value("connected", true));
+  system_.server().signal(SIGTERM);
+  EXPECT_EQ(system_.server().wait(), 0);
 }
 
 TEST_F(Mqtt, IsRefusedBeyondThisComputerWithoutTls) {

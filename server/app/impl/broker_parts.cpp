@@ -25,7 +25,7 @@ std::uint8_t first_connection_of(const storage::OpenedStore& store, const Clock&
 
 std::unique_ptr<mqtt::BrokerLink> ServerParts::make_link(const Settings& settings,
                                                          const std::string& client) const {
-  auto link = mqtt::make_mosquitto_link(settings.mqtt, client);
+  auto link = mqtt::make_mqtt_link(settings.mqtt, client);
   if (!settings.standby) return link;
   return mqtt::make_guarded_link(std::move(link), [this] { return store->has_place(); });
 }

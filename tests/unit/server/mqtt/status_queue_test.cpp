@@ -7,7 +7,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-machines::MachineView view(const std::string& machine, const std::string& description = "") {
+machines::MachineView state_of(const std::string& machine, const std::string& description = "") {
   machines::MachineView made;
   made.machine.name = machine;
   made.machine.description = description;
@@ -18,9 +18,9 @@ TEST(StatusQueue, HasTheLatestOfEachMachine) {
   StatusQueue queue(milliseconds(500));
   const SteadyTime now{std::chrono::seconds(100)};
   EXPECT_FALSE(queue.next_due());
-  EXPECT_TRUE(queue.note(view("a", "old")));
-  EXPECT_FALSE(queue.note(view("a", "new"))) << "one waited";
-  EXPECT_TRUE(queue.note(view("b")));
+  EXPECT_TRUE(queue.note(state_of("a", "old")));
+  EXPECT_FALSE(queue.note(state_of("a", "new"))) << "one waited";
+  EXPECT_TRUE(queue.note(state_of("b")));
   EXPECT_LE(queue.next_due().value(), now);
   EXPECT_EQ(queue.take(now)->machine.description, "new");
   EXPECT_EQ(queue.take(now)->machine.name, "b");
@@ -29,22 +29,22 @@ TEST(StatusQueue, HasTheLatestOfEachMachine) {
 
 TEST(StatusQueue, KeepsALaterStateThanOneThatIsAdded) {
   StatusQueue queue(milliseconds(500));
-  queue.add(view("a", "known"));
+  queue.add(state_of("a", "known"));
   EXPECT_EQ(queue.take(SteadyTime{})->machine.description, "known");
-  queue.note(view("a", "new"));
-  queue.add(view("a", "known"));
+  queue.note(state_of("a", "new"));
+  queue.add(state_of("a", "known"));
   EXPECT_EQ(queue.take(SteadyTime{} + milliseconds(500))->machine.description, "new");
 }
 
 TEST(StatusQueue, LetsOnePassInEachInterval) {
   StatusQueue queue(milliseconds(500));
   const SteadyTime now{std::chrono::seconds(100)};
-  queue.note(view("a"));
+  queue.note(state_of("a"));
   ASSERT_TRUE(queue.take(now));
-  queue.note(view("a", "second"));
+  queue.note(state_of("a", "second"));
   EXPECT_FALSE(queue.take(now + milliseconds(499)));
   EXPECT_EQ(queue.next_due(), now + milliseconds(500));
-  queue.note(view("a", "third"));
+  queue.note(state_of("a", "third"));
   EXPECT_EQ(queue.take(now + milliseconds(500))->machine.description, "third");
   EXPECT_FALSE(queue.next_due());
 }
@@ -54,8 +54,8 @@ TEST(StatusQueue, LetsNoMachineWaitForAnother) {
   const SteadyTime now{std::chrono::seconds(100)};
   std::string order;
   for (int i = 0; i < 4; ++i) {
-    queue.note(view("a"));
-    queue.note(view("b"));
+    queue.note(state_of("a"));
+    queue.note(state_of("b"));
     order += queue.take(now)->machine.name;
   }
   EXPECT_EQ(order, "abab");

@@ -1,0 +1,100 @@
+#include "server/mqtt/broker_socket.hpp"
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+namespace dripline::mqtt {
+namespace {
+
+tl::unexpected<Error> system_fault(int error) {
+  return fail(Errc::Io, "{}", std::generic_category().message(error));
+}
+bool is_for_later(int error) {
+  return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
+}
+
+}  // namespace
+
+Result<void> BrokerSocket::open(const std::string& host, std::uint16_t port) {
+  *this = BrokerSocket();
+  addrinfo wanted{};
+  wanted.ai_family = AF_UNSPEC;
+  wanted.ai_socktype = SOCK_STREAM;
+  wanted.ai_flags = AI_NUMERICSERV;
+  addrinfo* list = nullptr;
+  const int found = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &list);
+  if (found != 0) return fail(Errc::Io, "{}", ::gai_strerror(found));
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(list, ::freeaddrinfo);
+  for (const auto* one = list; one != nullptr; one = one->ai_next) {
+    Address address;
+    if (one->ai_addrlen > sizeof address.bytes) continue;
+    std::memcpy(&address.bytes, one->ai_addr, one->ai_addrlen);
+    address.size = one->ai_addrlen;
+    untried_.push_back(address);
+  }
+  return try_next(EADDRNOTAVAIL);
+}
+
+Result<void> BrokerSocket::try_next(int error) {
+  while (!untried_.empty()) {
+    const Address address = untried_.front();
+    untried_.pop_front();
+    error = begin(address);
+    if (error == 0) return {};
+  }
+  socket_ = Descriptor();
+  return system_fault(error);
+}
+
+/// 0: it is being connected.
+int BrokerSocket::begin(const Address& address) {
+  socket_ = Descriptor();
+  socket_ =
+      Descriptor(::socket(address.bytes.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!socket_) return errno;
+  const int on = 1;
+  (void)::setsockopt(socket_.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  const auto* name = reinterpret_cast<const sockaddr*>(&address.bytes);
+  if (::connect(socket_.get(), name, address.size) == 0) return 0;
+  return errno == EINPROGRESS || errno == EINTR ? 0 : errno;
+}
+
+Result<bool> BrokerSocket::connect() {
+  if (is_connected_) return true;
+  pollfd file{.fd = socket_.get(), .events = POLLOUT, .revents = 0};
+  if (::poll(&file, 1, 0) <= 0) return false;
+  int error = 0;
+  socklen_t size = sizeof error;
+  if (::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size) != 0) error = errno;
+  if (error == 0) return is_connected_ = true;
+  if (auto next = try_next(error); !next) return fail(next.error());
+  return false;
+}
+
+Result<std::size_t> BrokerSocket::send(std::string_view bytes) {
+  const auto sent = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  if (sent >= 0) return static_cast<std::size_t>(sent);
+  if (is_for_later(errno)) return std::size_t{0};
+  return system_fault(errno);
+}
+
+Result<bool> BrokerSocket::receive(std::string& bytes) {
+  std::array<char, kPiece> piece{};
+  const auto got = ::recv(socket_.get(), piece.data(), piece.size(), 0);
+  if (got > 0) {
+    bytes.append(piece.data(), static_cast<std::size_t>(got));
+    return true;
+  }
+  if (got == 0) return fail(Errc::Io, "ended the connection");
+  if (is_for_later(errno)) return false;
+  return system_fault(errno);
+}
+
+}  // namespace dripline::mqtt
