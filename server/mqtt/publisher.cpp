@@ -101,7 +101,8 @@ Result<void> Publisher::connect(const std::stop_token& stop) {
 
 /// A broker that was away has old states, or none.
 void Publisher::greet() {
-  answered_ = looked_ = committed_ = parts_.clock.steady_now();
+  oldest_record_ = oldest_state_ = {};
+  looked_ = committed_ = parts_.clock.steady_now();
   is_more_ = true;  // perhaps
   if (settings_.has_status) {
     for (const auto& view : parts_.machines()) queue_.add(view);
@@ -188,9 +189,7 @@ milliseconds Publisher::next_wait() const {
 }
 
 Result<void> Publisher::receive(milliseconds limit) {
-  const bool was_idle = under_way() == 0;
   const auto progress = parts_.link.wait(limit);
-  if (was_idle || !progress.acknowledged.empty()) answered_ = parts_.clock.steady_now();
   for (const auto& acknowledged : progress.acknowledged) {
     if (auto taken = take(acknowledged); !taken) return taken;
   }
@@ -230,10 +229,22 @@ Result<void> Publisher::commit(bool is_due_now) {
   return feed_.commit();
 }
 
+void Publisher::follow(Oldest& oldest, std::uint64_t message, SteadyTime now) {
+  if (message != oldest.message) oldest = {message, now};
+}
+
+/// Each sort by itself: a broker that acknowledges states may keep no record.
 Result<void> Publisher::check_answers() {
-  if (under_way() == 0 || parts_.clock.steady_now() - answered_ < options_.answer_limit) return {};
-  return fail(Errc::Timeout, "{}: nothing acknowledged in {} s", settings_.broker,
-              std::chrono::duration_cast<std::chrono::seconds>(options_.answer_limit).count());
+  const SteadyTime now = parts_.clock.steady_now();
+  follow(oldest_record_, feed_.oldest(), now);
+  follow(oldest_state_, states_.empty() ? 0 : states_.begin()->first, now);
+  for (const auto& [oldest, what] :
+       {std::pair(oldest_record_, "records"), std::pair(oldest_state_, "states")}) {
+    if (oldest.message == 0 || now - oldest.since < options_.answer_limit) continue;
+    return fail(Errc::Timeout, "{}: {}: nothing acknowledged in {} s", settings_.broker, what,
+                std::chrono::duration_cast<std::chrono::seconds>(options_.answer_limit).count());
+  }
+  return {};
 }
 
 /// Ends what is in progress, says that the server is gone, and notes how far it has got.

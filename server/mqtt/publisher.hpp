@@ -87,6 +87,12 @@ class Publisher {
   Result<void> receive(std::chrono::milliseconds limit);
   Result<void> take(const BrokerLink::Acknowledgment& acknowledged);
   Result<void> commit(bool is_due_now);
+  /// A message that waits for its acknowledgment while no older one of its sort does.
+  struct Oldest {
+    std::uint64_t message = 0;  ///< 0: none waits
+    SteadyTime since{};
+  };
+  static void follow(Oldest& oldest, std::uint64_t message, SteadyTime now);
   Result<void> check_answers();
   void take_leave();
   std::chrono::milliseconds next_wait() const;
@@ -109,7 +115,7 @@ class Publisher {
   bool is_more_ = false;                         ///< records wait that fit the window
   SteadyTime looked_{};
   SteadyTime committed_{};
-  SteadyTime answered_{};
+  Oldest oldest_record_, oldest_state_;
   std::jthread worker_;  // last: it uses the others
 };
 

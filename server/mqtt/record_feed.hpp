@@ -38,6 +38,8 @@ class RecordFeed {
   Result<void> commit();
 
   std::size_t under_way() const { return under_way_.size(); }
+  /// The message whose acknowledgment the cursors wait for; 0: none.
+  std::uint64_t oldest() const { return under_way_.empty() ? 0 : under_way_.front().message; }
   /// Acknowledged, and not stored yet.
   bool has_uncommitted() const { return !passed_.empty(); }
   /// Records that were taken out of the database before they could be published.

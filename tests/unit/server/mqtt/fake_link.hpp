@@ -39,7 +39,7 @@ class FakeLink final : public BrokerLink {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, limit, [&] {
       return is_awake_ || is_down || !is_connected_ || !sent_.empty() ||
-             (!is_silent && !pending_.empty());
+             (!is_silent && is_answered_next());
     });
     is_awake_ = false;
     if (is_down) return {.is_lost = true, .fault = "lost"};
@@ -47,12 +47,13 @@ class FakeLink final : public BrokerLink {
         .is_connected = true, .is_lost = false, .fault = "", .acknowledged = {}, .received = {}};
     is_connected_ = true;
     progress.received = std::exchange(sent_, {});
-    while (!is_silent && !pending_.empty()) {
-      const auto& [id, message] = pending_.front();
+    while (!is_silent && is_answered_next()) {
+      const auto next = next_answered();
+      const auto& [id, message] = *next;
       const bool is_refused = !refused.empty() && message.topic.find(refused) != std::string::npos;
       if (!is_refused) got.push_back(message);
       progress.acknowledged.push_back({id, is_refused ? "not authorized" : ""});
-      pending_.pop_front();
+      pending_.erase(next);
     }
     return progress;
   }
@@ -100,13 +101,23 @@ class FakeLink final : public BrokerLink {
   bool is_down = false;    ///< connections fail
   bool is_silent = false;  ///< nothing is acknowledged
   std::string refused;     ///< part of the topics
+  std::string kept;        ///< likewise: these are not acknowledged
   std::atomic<int> opened = 0, closed = 0, dropped = 0;
   std::atomic<std::size_t> most_pending = 0;
 
  private:
+  using Pending = std::deque<std::pair<std::uint64_t, Message>>;
+
+  Pending::iterator next_answered() {
+    return std::ranges::find_if(pending_, [this](const auto& one) {
+      return kept.empty() || one.second.topic.find(kept) == std::string::npos;
+    });
+  }
+  bool is_answered_next() { return next_answered() != pending_.end(); }
+
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::pair<std::uint64_t, Message>> pending_;
+  Pending pending_;
   std::vector<Message> got;
   Message will_;
   std::string subscribed_;

@@ -38,6 +38,7 @@ class PublisherTest : public server_test::ServerTest {
                              [this](const std::string&, const std::string& fault) {
                                const std::lock_guard lock(mutex_);
                                fault_ = fault;
+                               faults_ += fault + "\n";
                              }},
         *settings, options_);
     publisher_->begin();
@@ -48,7 +49,8 @@ class PublisherTest : public server_test::ServerTest {
     made.machine.description = text;
     return made;
   }
-  void store(std::uint64_t last, const std::string& text = "X1") {
+  void store(std::uint64_t last, const std::string& text = "X1",
+             const std::string& kind = "output") {
     storage::RecordBatch batch;
     batch.machine = "a";
     batch.epoch = 7;
@@ -57,7 +59,7 @@ class PublisherTest : public server_test::ServerTest {
       record.machine = "a";
       record.epoch = 7;
       record.number = ++stored_;
-      record.kind = "output";
+      record.kind = kind;
       record.text = text;
       batch.records.push_back(record);
     }
@@ -76,6 +78,11 @@ class PublisherTest : public server_test::ServerTest {
   bool is_waiting(std::uint64_t number) {
     return test_support::eventually([&] { return publisher_->state()->waiting == number; });
   }
+  /// Also one that has ended.
+  bool had_fault(const std::string& part) {
+    const std::lock_guard lock(mutex_);
+    return faults_.find(part) != std::string::npos;
+  }
   std::string fault() {
     const std::lock_guard lock(mutex_);
     return fault_;
@@ -92,7 +99,7 @@ class PublisherTest : public server_test::ServerTest {
   SystemClock system_;
   FakeLink link_;
   std::mutex mutex_;
-  std::string fault_ = "none yet";
+  std::string fault_ = "none yet", faults_;
   std::uint64_t stored_ = 0;
   std::unique_ptr<Publisher> publisher_;
 };
@@ -178,6 +185,43 @@ TEST_F(PublisherTest, MovesNoCursorWithoutAnAcknowledgment) {
       << publisher_->state()->fault;
   link_.set(&FakeLink::is_silent, false);
   EXPECT_TRUE(is_waiting(0));
+}
+
+TEST_F(PublisherTest, NoticesThatRecordsAreNotAcknowledgedWhileStatesAre) {
+  link_.kept = "/records/";
+  make("status_interval_ms = 100\n");
+  ASSERT_TRUE(gets("shop/online", 1));
+  store(1);
+  int states = 0;
+  ASSERT_TRUE(test_support::eventually([&] {
+    publisher_->note(view("a", std::to_string(++states)));
+    return had_fault("records: nothing acknowledged");
+  }));
+  EXPECT_EQ(publisher_->state()->waiting, 1u);
+}
+
+TEST_F(PublisherTest, NoticesThatStatesAreNotAcknowledgedWhileRecordsAre) {
+  link_.kept = "/status";
+  make();
+  EXPECT_TRUE(test_support::eventually([&] {
+    store(stored_ + 1);
+    return had_fault("states: nothing acknowledged");
+  }));
+}
+
+TEST_F(PublisherTest, NoticesOneRecordThatIsNotAcknowledgedWhileOthersAre) {
+  link_.kept = "/records/probe";
+  make();
+  store(1, "X1", "probe");
+  auto next = std::chrono::steady_clock::now();
+  ASSERT_TRUE(test_support::eventually([&] {
+    if (std::chrono::steady_clock::now() >= next) {
+      store(stored_ + 1);
+      next += milliseconds(50);
+    }
+    return link_.opened >= 2;
+  }));
+  EXPECT_LT(link_.most_pending, options_.window - 10) << "not only when the window is full";
 }
 
 TEST_F(PublisherTest, PassesOverNothingThatIsRefused) {
