@@ -7,80 +7,110 @@
 namespace dripline::interpreter::tnc155::itnc {
 namespace {
 
-using enum CycleUse;
+using U = CycleUse;
 using P = CycleParameter;
 
-constexpr P kClearance{200, Distance}, kDepth{201, Length}, kSurface{203, Length},
-    kSecond{204, Distance}, kPlunge{206, Feed}, kAtBottom{211, Seconds, false},
-    kReference{395, Zero, false};
+constexpr P kClearance{200, U::Distance}, kDepth{201, U::Length}, kSurface{203, U::Length},
+    kSecond{204, U::Distance}, kPlunge{206, U::Feed}, kAtBottom{211, U::Seconds, false},
+    kReference{395, U::Zero, false};
 
-constexpr std::array kDrillingWords{kClearance,       kDepth,          kPlunge,
-                                    P{202, Distance}, P{210, Seconds}, kSurface,
-                                    kSecond,          kAtBottom,       kReference};
-constexpr std::array kReamingWords{kClearance,   kDepth,   kPlunge, kAtBottom,
-                                   P{208, Feed}, kSurface, kSecond};
+constexpr std::array kDrillingWords{kClearance,         kDepth,   kPlunge, P{202, U::Distance},
+                                    P{210, U::Seconds}, kSurface, kSecond, kAtBottom,
+                                    kReference};
+constexpr std::array kReamingWords{kClearance,      kDepth,   kPlunge, kAtBottom,
+                                   P{208, U::Feed}, kSurface, kSecond};
 constexpr std::array kUniversalWords{kClearance,
                                      kDepth,
                                      kPlunge,
-                                     P{202, Distance},
-                                     P{210, Seconds},
+                                     P{202, U::Distance},
+                                     P{210, U::Seconds},
                                      kSurface,
                                      kSecond,
-                                     P{212, Distance},
-                                     P{213, Number},
-                                     P{205, Distance},
+                                     P{212, U::Distance},
+                                     P{213, U::Number},
+                                     P{205, U::Distance},
                                      kAtBottom,
-                                     P{208, Feed},
-                                     P{256, Distance, false},
+                                     P{208, U::Feed},
+                                     P{256, U::Distance, false},
                                      kReference};
 constexpr std::array kPeckingWords{kClearance,
                                    kDepth,
                                    kPlunge,
-                                   P{202, Distance},
+                                   P{202, U::Distance},
                                    kSurface,
                                    kSecond,
-                                   P{212, Distance},
-                                   P{205, Distance},
-                                   P{258, Distance},
-                                   P{259, Distance},
-                                   P{257, Distance},
-                                   P{256, Distance},
+                                   P{212, U::Distance},
+                                   P{205, U::Distance},
+                                   P{258, U::Distance},
+                                   P{259, U::Distance},
+                                   P{257, U::Distance},
+                                   P{256, U::Distance},
                                    kAtBottom,
-                                   P{379, Zero, false},
-                                   P{253, Feed, false},
-                                   P{208, Feed, false},
+                                   P{379, U::Zero, false},
+                                   P{253, U::Feed, false},
+                                   P{208, U::Feed, false},
                                    kReference};
-constexpr std::array kCenteringWords{kClearance, P{343, Zero}, kDepth,   P{344, Length, false},
-                                     kPlunge,    kAtBottom,    kSurface, kSecond};
+constexpr std::array kCenteringWords{
+    kClearance, P{343, U::Zero}, kDepth,   P{344, U::Length, false},
+    kPlunge,    kAtBottom,       kSurface, kSecond};
 constexpr std::array kTappingWords{kClearance, kDepth, kPlunge, kAtBottom, kSurface, kSecond};
-constexpr std::array kRigidWords{kClearance, kDepth, P{239, Length}, kSurface, kSecond};
-constexpr std::array kBoringWords{kClearance, kDepth,           kPlunge,
-                                  kAtBottom,  P{208, Feed},     kSurface,
-                                  kSecond,    P{214, Distance}, P{336, Zero, false}};
+constexpr std::array kRigidWords{kClearance, kDepth, P{239, U::Length}, kSurface, kSecond};
+constexpr std::array kBoringWords{kClearance,
+                                  kDepth,
+                                  kPlunge,
+                                  kAtBottom,
+                                  P{208, U::Feed},
+                                  kSurface,
+                                  kSecond,
+                                  P{214, U::Distance},
+                                  P{336, U::Zero, false}};
 constexpr std::array kChipTapWords{kClearance,
                                    kDepth,
-                                   P{239, Length},
+                                   P{239, U::Length},
                                    kSurface,
                                    kSecond,
-                                   P{257, Distance},
-                                   P{256, Distance},
-                                   P{336, Zero, false},
-                                   P{403, Number, false}};
-constexpr std::array kBackBoringWords{kClearance,       P{249, Length},   P{250, Distance},
-                                      P{251, Distance}, P{252, Distance}, P{253, Feed},
-                                      P{254, Feed},     P{255, Seconds},  kSurface,
-                                      kSecond,          P{214, Distance}, P{336, Zero, false}};
-constexpr std::array kPolarWords{kClearance,     kSurface,         kSecond,
-                                 P{216, Length}, P{217, Length},   P{244, Distance},
-                                 P{245, Number}, P{246, Number},   P{247, Number},
-                                 P{241, Number}, P{301, Distance}, P{365, Zero, false}};
-constexpr std::array kCartesianWords{
-    kClearance,     kSurface,       kSecond,        P{225, Length}, P{226, Length},  P{237, Length},
-    P{238, Length}, P{242, Number}, P{243, Number}, P{224, Number}, P{301, Distance}};
-constexpr std::array kPresetWords{P{339, Number}};
-constexpr std::array kBoreMillingWords{kClearance,       kDepth,           kPlunge,
-                                       P{334, Distance}, kSurface,         kSecond,
-                                       P{335, Distance}, P{342, Distance}, P{351, Number, false}};
+                                   P{257, U::Distance},
+                                   P{256, U::Distance},
+                                   P{336, U::Zero, false},
+                                   P{403, U::Number, false}};
+constexpr std::array kBackBoringWords{kClearance,
+                                      P{249, U::Length},
+                                      P{250, U::Distance},
+                                      P{251, U::Distance},
+                                      P{252, U::Distance},
+                                      P{253, U::Feed},
+                                      P{254, U::Feed},
+                                      P{255, U::Seconds},
+                                      kSurface,
+                                      kSecond,
+                                      P{214, U::Distance},
+                                      P{336, U::Zero, false}};
+constexpr std::array kPolarWords{kClearance,
+                                 kSurface,
+                                 kSecond,
+                                 P{216, U::Length},
+                                 P{217, U::Length},
+                                 P{244, U::Distance},
+                                 P{245, U::Number},
+                                 P{246, U::Number},
+                                 P{247, U::Number},
+                                 P{241, U::Number},
+                                 P{301, U::Distance},
+                                 P{365, U::Zero, false}};
+constexpr std::array kCartesianWords{kClearance,        kSurface,           kSecond,
+                                     P{225, U::Length}, P{226, U::Length},  P{237, U::Length},
+                                     P{238, U::Length}, P{242, U::Number},  P{243, U::Number},
+                                     P{224, U::Number}, P{301, U::Distance}};
+constexpr std::array kPresetWords{P{339, U::Number}};
+constexpr std::array kBoreMillingWords{kClearance,
+                                       kDepth,
+                                       kPlunge,
+                                       P{334, U::Distance},
+                                       kSurface,
+                                       kSecond,
+                                       P{335, U::Distance},
+                                       P{342, U::Distance},
+                                       P{351, U::Number, false}};
 
 }  // namespace
 
