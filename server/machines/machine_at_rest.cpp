@@ -54,16 +54,22 @@ bool MachineService::is_new_screen(const dds::Status& status) {
 }
 
 void MachineService::show_setup(const std::string& machine) {
-  if (parts() != nullptr) pool_.post([this, machine] { give_setup(machine); });
+  pool_.post([this, machine] { give_setup(machine); });
 }
 
-/// A query brings the setup; this one asks for no values.
+/// A query brings the setup; this one asks for no values. A machine that cannot get it yet (its
+/// status came before its announcement was taken, or two gateways have its name) gets it at its
+/// next status.
 void MachineService::give_setup(const std::string& machine) {
   constexpr double kPastTheLast = 1e9;
   Parts* parts = this->parts();
   const auto view = connected_machine(machine);
-  if (parts == nullptr || !view || !view->status || !view->status->screen) return;
-  if (view->has_serial_line() || view->is_contested) return;
+  if (parts == nullptr || !view || !view->status || view->is_contested) {
+    const std::lock_guard lock(screens_mutex_);
+    screens_.erase(machine);
+    return;
+  }
+  if (!view->status->screen || view->has_serial_line()) return;
   auto command = command_with_setup(*view, dds::CommandAction::Query);
   if (!command) return;  // it goes with the next start
   command->value = kPastTheLast;
