@@ -85,7 +85,9 @@ bool Approach::add_straight_back(Plan& plan) const {
   for (const Axis axis : kAllAxes)
     if (to.has(axis)) back.set_raw(axis, to.raw(axis));
   ApproachMove move{back, {}, {}};
-  if (!passed->continues_with()->is_rapid) move.feed = plunge_feed();
+  const auto& next = *passed->continues_with();
+  const bool is_per_minute = next.feed && next.feed->per() == Feed::Per::Minute;
+  if (!next.is_rapid) move.feed = is_per_minute ? *next.feed : plunge_feed();
   plan.after.push_back(move);
   return true;
 }

@@ -43,7 +43,7 @@ void ClearHeights::move(const Move& move) {
 }
 
 void ClearHeights::move_along(Axis axis, const Move& move) {
-  const bool is_across = leads_across(axis, move);
+  const bool is_across = move.is_arc || leads_across(axis, move);  // a circle ends as it begins
   const double lowered = move.from.raw(axis) - move.to.raw(axis);
   if (!has_moved_ && !is_across && lowered >= kLowered) begun_.set_raw(axis, move.from.raw(axis));
   if (!is_across && std::fabs(lowered) <= kStill) return;
@@ -66,9 +66,10 @@ void ClearHeights::add_feed(Axis axis, const Move& move, bool is_across) {
 }
 
 bool ClearHeights::is_clear(Axis axis, double highest) const {
-  if (crossed_.has(axis)) return true;
   const bool is_above_cuts = !deepest_.has(axis) || highest > deepest_.raw(axis) + kStill;
   if (!is_above_cuts) return false;
+  // Beside the part a rapid may be at the depth of the cuts: it shows a height above them alone.
+  if (crossed_.has(axis) && (!cut_.has(axis) || highest > cut_.raw(axis) + kStill)) return true;
   // A rapid that ends within a hole clears its chips.
   const bool is_out = !entered_.has(axis) || retracted_.raw(axis) >= entered_.raw(axis) - kStill;
   if (retracted_.has(axis) && is_out) return true;

@@ -8,16 +8,19 @@ namespace dripline::gateway {
 /// be the tool's. A height that only feed moves have had is through the part. Value type; all
 /// heights are the tip's, in the coordinates of ReachedHeights.
 ///
-/// The highest place of a run is clear where a rapid of the program led across, there or lower.
-/// Where none did it is if it is above the deepest cut, and a rapid of the tool axis alone led out
-/// of the cut, as high as the tool went in; or the run began there, and its first move lowered the
-/// tool by kLowered or more. (A block that names where the axes are already moves none, so a
-/// program whose first ones do that is not seen to be at its clearance.)
+/// The highest place of a run is clear if it is above all cuts across and a rapid of the program
+/// led across, there or lower; or if it is above the deepest cut, and a rapid of the tool axis
+/// alone led out of the cut, as high as the tool went in; or the run began there, and its first
+/// move lowered the tool by kLowered or more. A program at one height alone, as of a torch, shows
+/// none: beside the part its rapids may be as deep as its cuts. (A block that names where the axes
+/// are already moves none, so a program whose first ones do that is not seen to be at its
+/// clearance.)
 class ClearHeights {
  public:
   struct Move {
     interpreter::Position from, to;  ///< `to` marks the axes of the program
     bool is_rapid = false;
+    bool is_arc = false;
   };
   void move(const Move& move);
 

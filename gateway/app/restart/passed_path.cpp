@@ -121,7 +121,9 @@ void PassedPath::on_rapid(const interpreter::Rapid& event) {
 }
 
 void PassedPath::on_line(const interpreter::Line& event) {
+  const bool has_begun = has_continued_;
   add(event.origin, event.to, {});
+  if (!has_begun && continues_with_) continues_with_->feed = event.feed;
 }
 
 void PassedPath::on_arc(const interpreter::Arc& event) {

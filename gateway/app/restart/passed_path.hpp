@@ -39,6 +39,7 @@ class PassedPath final : public interpreter::EventSink {
   struct StraightMove {
     interpreter::Position to;
     bool is_rapid = false;
+    std::optional<Feed> feed = {};  ///< not of a rapid
   };
   const std::optional<StraightMove>& continues_with() const { return continues_with_; }
 

@@ -75,7 +75,7 @@ void ReachedHeights::move(const Position& to, const Lengths& now, Kind kind) {
   Position reached = tip_at(now);
   reached.unmark_all();
   reached.mark_all_of(to);
-  clear.move({from, reached, kind == Kind::Rapid});
+  clear.move({from, reached, kind == Kind::Rapid, kind == Kind::Arc});
 }
 
 /// An arc across the tool axis may be higher between its ends than at both of them.
@@ -87,7 +87,7 @@ void ReachedHeights::move(const Position& to, const interpreter::PathArc& arc, c
   const bool is_clockwise = arc.turn == interpreter::Turn::Clockwise;
   const double turn = is_clockwise ? -arc.sweep.radians() : arc.sweep.radians();
   const double angle = std::atan2(from.second, from.first);
-  move(to, now);
+  move(to, now, Kind::Arc);
   if (to.has(plane.first) && passes(angle, turn, 0)) raise(plane.first, center.first + radius, now);
   if (to.has(plane.second) && passes(angle, turn, std::numbers::pi / 2))
     raise(plane.second, center.second + radius, now);

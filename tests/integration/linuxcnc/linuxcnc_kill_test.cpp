@@ -226,7 +226,14 @@ TEST_F(LinuxCncKill, OfItsTaskStopsTheAxesAndAsksForTheBlock) {
       text = system->rest().post("/api/v1/runs/" + id + "/restart", nlohmann::json::object()).body;
       return text.find("look at the part and name the block") != std::string::npos;
     })) << text;
-    // Its motors begin at 0 again, and the interrupted block from its beginning.
+    // Its motors begin at 0 again; this path has no height to be led across at, so that they are
+    // brought to the place. The interrupted block is cut from its beginning.
+    const auto mdi =
+        system->rest().post("/api/v1/machines/lathe-1/mdi",
+                            {{"text", fmt::format("G21 G90 G1 X{} F2400\n", truth - 1)}});
+    ASSERT_EQ(mdi.status, 201) << mdi.body;
+    EXPECT_EQ(system->wait_ended(mdi.json().value("id", "")).value("state", ""), "completed");
+    ASSERT_TRUE(rests());
     restart(cut, "block=" + std::to_string(truth + 1));
   }
 }
