@@ -256,6 +256,9 @@ void Session::raise(std::string_view id, std::string text, SteadyTime now) {
 
 void Session::stop(bool is_emergency, SteadyTime now) {
   is_emergency_ = is_emergency_ || is_emergency;
+  // What `opened` has queued was before the stop; the helper executes it after its hello.
+  if (phase_ == Phase::Starting)
+    must_obey_ = command(is_emergency ? R"("do":"emergency")" : R"("do":"abort")");
   if (phase_ != Phase::Ready) return;
   abort(now);
   if (is_emergency) {

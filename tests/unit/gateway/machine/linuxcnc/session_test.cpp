@@ -33,6 +33,21 @@ TEST(LinuxCncSession, StatesByWhatLinuxCncReadsPrograms) {
   EXPECT_EQ(reader->settings, "RETAIN_G43");
 }
 
+/// LinuxCNC may still have what it was sent before the helper was lost.
+TEST(LinuxCncSession, AStopWhileItsHelperStartsIsSent) {
+  for (const auto& [is_emergency, order] :
+       {std::pair{true, "\"do\":\"emergency\""}, std::pair{false, "\"do\":\"abort\""}}) {
+    FakeHelper helper;
+    helper.session.lost("again");
+    helper.session.opened(helper.now);
+    (void)helper.session.take_commands();
+    helper.session.stop(is_emergency, helper.now);
+    helper.say(std::string(kHello));
+    helper.pass(1ms);
+    EXPECT_NE(helper.commands.find(order), std::string::npos) << helper.commands;
+  }
+}
+
 TEST(LinuxCncSession, BeginsWithoutTheAdaptiveFeedOfAFormerProgram) {
   FakeHelper helper;
   helper.adaptive = true;
