@@ -161,6 +161,9 @@ bool is_stop(const PanelCommand& command) {
       return command.value == 0;
     case Verb::Switch:
       return command.text == "emergency_stop" && command.value == 1;
+    case Verb::FeedOverride:
+    case Verb::RapidOverride:
+      return command.value == 0;  // it holds the axes
     default:
       return false;
   }

@@ -111,6 +111,16 @@ struct Answers {
   }
 };
 
+/// The first whole line, which is taken off; nothing: there is none.
+std::optional<std::string> take_line(std::string& received) {
+  const std::size_t end = received.find('\n');
+  if (end == std::string::npos) return std::nullopt;
+  std::string line = received.substr(0, end);
+  received.erase(0, end + 1);
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return line;
+}
+
 Result<Descriptor> listen_at(const std::filesystem::path& folder) {
   const auto refused = [&](const char* what) {
     return fail(Errc::Io, "panel socket in {}: {}: {}", folder.string(), what,
@@ -158,6 +168,7 @@ class PanelSocket::Server {
   void read(std::uint64_t id, Connection& connection);
   void ask(std::uint64_t id, Connection& connection);
   void close_idle();
+  void hang_up(Connection& connection) const;
   static void close(const Connection& connection);
   static void reply(Connection& connection, const std::string& line);
   static void send(Connection& connection);
@@ -194,9 +205,9 @@ void PanelSocket::Server::serve() {
       const bool is_silent = (polled[i + 2].events & POLLIN) != 0 && (events & POLLIN) == 0;
       if (is_silent && connection.received.empty()) connection.silent_at = looked;
       if ((events & POLLIN) != 0) read(ids[i], connection);
-      if ((events & (POLLERR | POLLNVAL)) != 0 ||
-          ((events & POLLHUP) != 0 && (events & POLLIN) == 0))
-        connection.is_closing = true, connection.to_send.clear();
+      const bool is_gone = (events & (POLLERR | POLLNVAL)) != 0 ||
+                           ((events & POLLHUP) != 0 && (events & POLLIN) == 0);
+      if (is_gone && !connection.is_closing) hang_up(connection);
     }
     if (polled[1].revents != 0) take_answers();
     std::erase_if(connections_, [](const auto& entry) {
@@ -227,6 +238,24 @@ void PanelSocket::Server::close_idle() {
       [](const auto& a, const auto& b) { return a.second.last_heard < b.second.last_heard; });
   close(idle->second);
   connections_.erase(idle);
+}
+
+/// It gets no answer, but the stops that it has sent take effect.
+void PanelSocket::Server::hang_up(Connection& connection) const {
+  constexpr std::size_t kMost = 16 * (kMaxPanelLine + 1);
+  char bytes[512];
+  while (connection.received.size() < kMost) {
+    const auto count = ::read(connection.socket->get(), bytes, sizeof bytes);
+    if (count <= 0) break;
+    connection.received.append(bytes, static_cast<std::size_t>(count));
+  }
+  while (auto line = take_line(connection.received)) {
+    auto command = parse_panel_command(*line);
+    if (command && is_stop(*command))
+      on_request_({.command = *std::move(command), .answer = [](const std::string&) {}});
+  }
+  connection.is_closing = true;
+  connection.to_send.clear();
 }
 
 /// A request of it may be open, and have the socket: the other end sees now that it is over.
@@ -272,17 +301,14 @@ void PanelSocket::Server::read(std::uint64_t id, Connection& connection) {
 /// Hands on the first whole line. A line that cannot be understood is answered here.
 void PanelSocket::Server::ask(std::uint64_t id, Connection& connection) {
   while (!connection.is_asking && !connection.is_closing) {
-    const std::size_t end = connection.received.find('\n');
-    if (end == std::string::npos) {
+    const auto line = take_line(connection.received);
+    if (!line) {
       if (connection.received.size() <= kMaxPanelLine + 1) return;
       reply(connection, fmt::format("refused a line of more than {} bytes", kMaxPanelLine));
       connection.is_closing = true;
       return;
     }
-    std::string line = connection.received.substr(0, end);
-    connection.received.erase(0, end + 1);
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    auto command = parse_panel_command(line);
+    auto command = parse_panel_command(*line);
     if (!command) {
       reply(connection, "refused " + command.error().what);
       continue;
@@ -292,8 +318,11 @@ void PanelSocket::Server::ask(std::uint64_t id, Connection& connection) {
         {.command = *std::move(command),
          .answer = [answers = answers_,
                     id](std::string answer) { answers->give(id, std::move(answer)); },
-         .why_late = [socket = connection.socket,
-                      silent_at = connection.silent_at] { return why_late(*socket, silent_at); }});
+         .why_late =
+             [socket = std::weak_ptr<Socket>(connection.socket), silent_at = connection.silent_at] {
+               const auto open = socket.lock();
+               return open ? why_late(*open, silent_at) : std::string("its sender waits no longer");
+             }});
   }
 }
 

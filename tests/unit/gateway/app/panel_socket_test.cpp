@@ -182,6 +182,17 @@ TEST_F(HeldPanel, TheNextRequestOfASlowOneIsNotLate) {
   EXPECT_EQ(late(1), "");
 }
 
+/// A button box polls the status of a gateway that hangs, a stop is pressed, and it gives up.
+TEST_F(HeldPanel, AStopOfASenderThatHasGoneTakesEffect) {
+  {
+    const Descriptor one = ask("status\ncycle-start\nhold\n");
+    (void)late(0);
+  }
+  std::unique_lock lock(mutex_);
+  ASSERT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30), [&] { return asked_.size() > 1; }));
+  EXPECT_EQ(asked_[1].command.verb, PanelCommand::Verb::Hold);
+}
+
 TEST(PanelSocket, NeedsNoShortPath) {
   const test_support::TemporaryFolder folder;
   const auto deep = folder.path() / std::string(120, 'd');

@@ -45,16 +45,17 @@ TEST(PanelOfAGatewayThatRecovers, TakesStopsAndNothingElse) {
   fixture.take_panel = [&] {
     std::vector<PanelRequest> requests;
     if (!answers.empty()) return requests;
-    for (const char* line : {"home", "emergency-stop"})
+    for (const char* line : {"home", "hold", "emergency-stop"})
       requests.push_back({.command = parse_panel_command(line).value(),
                           .answer = [&](std::string text) { answers.push_back(text); }});
     return requests;
   };
   looks = 0;
   fixture.restart_gateway();
-  ASSERT_EQ(answers.size(), 2u);
+  ASSERT_EQ(answers.size(), 3u);
   EXPECT_TRUE(answers[0].starts_with("refused the gateway waits")) << answers[0];
-  EXPECT_EQ(answers[1], "ok");
+  EXPECT_TRUE(answers[1].starts_with("ok what the machine still had")) << answers[1];
+  EXPECT_EQ(answers[2], "ok");
   EXPECT_LT(looks, 3) << "and it took effect at once";
   EXPECT_NE(fixture.panel("status").find("emergency_stop=pressed"), std::string::npos);
 }
