@@ -351,6 +351,9 @@ bool TncInterpreter::read_live(std::vector<double>& values) {
 Result<void> TncInterpreter::begin_next_text() {
   State& state = run_.state;
   if (state.is_compensating()) return fail(Errc::Unsupported, "radius compensation is on");
+  if (run_.tilted.is_on())
+    return fail(Errc::Unsupported,
+                "a tilted plane or M128 was in force, and ended with its program");
   state.phase = RunPhase::Running;
   state.has_header = state.are_calls_checked = false;
   state.blocks = 0;

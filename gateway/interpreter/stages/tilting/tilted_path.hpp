@@ -101,7 +101,10 @@ class TiltedPath final : public EventFilter {
     Position machine;
   };
   const State& state() const { return state_; }
-  void restore(const State& state) { state_ = state; }
+  void restore(const State& state) {
+    state_ = state;
+    fault_.reset();
+  }
 
  private:
   Position on_machine(const Position& flat) const;

@@ -16,7 +16,7 @@ constexpr double kSame = 1e-9;
 double feed_with_rotary(const Run& run, const Position& to, const Pace& pace) {
   const AxisTravel travel = travel_between(run.state.machine, to);
   if (run.tilted.kind() == tilting::Tilt::Kind::TipControl)  // F is the tip's speed
-    return travel.linear == 0 ? pace.rotary_feed : pace.feed;
+    return travel.linear == 0 ? pace.rotary_feed * run.state.mm_per_unit() : pace.feed;
   if (travel.rotary == 0) return pace.feed;
   if (travel.linear == 0) return pace.rotary_feed;
   if (!run.options.contour_feed) return pace.rotary_feed * travel.linear / travel.rotary;

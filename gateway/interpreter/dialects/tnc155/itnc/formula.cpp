@@ -254,6 +254,8 @@ bool read_tool(Run& run, const Block& block, int field, int index) {
 /// ID 240: where the program has brought an axis, in machine coordinates.
 bool read_machine_position(Run& run, const Block& block, Axis axis) {
   const State& state = run.state;
+  if (run.tilted.is_on())
+    return run.fail(ErrorCode::TiltFailed, "FN 18: SYSREAD ID240 in a tilted plane or under M128");
   if (state.compensation > Compensation::Off) {
     return run.fail(ErrorCode::NotSupported, "FN 18: SYSREAD ID240 with RL or RR in force");
   }

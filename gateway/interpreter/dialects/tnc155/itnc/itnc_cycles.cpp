@@ -110,7 +110,7 @@ bool read_cycle(Reading& in, const char* block_end) {
     return true;
   }
   if (has_part && cycle == kWorkingPlane && (part == 0 || (part == 1 && cursor.is_at_end()))) {
-    in.block.kind = BlockKind::Accepted;  // without angles: no plane is tilted, and none ever is
+    in.block.kind = BlockKind::Accepted;
     in.words.name = "CYCL DEF 19 without angles";
     return true;
   }

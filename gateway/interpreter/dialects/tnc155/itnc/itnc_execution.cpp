@@ -352,6 +352,9 @@ bool check_plane_angles(Run& run, const Block& block) {
 }
 
 bool accept(Run& run, const Block&) {
+  // The control ends the plane there.
+  if (run.tilted.is_on() && run.parts.itnc.name.starts_with("CYCL DEF 19"))
+    return run.fail(ErrorCode::TiltFailed, "CYCL DEF 19 before PLANE RESET or M129");
   run.warn("TNC-ACCEPTED", fmt::format("{} is not followed", run.parts.itnc.name));
   return true;
 }

@@ -85,7 +85,7 @@ bool turn_to_plane(Run& run, const Block& block) {
   run.ledger.take_all();
   interrupt_contour(run);
   std::optional<Feed> feed;
-  if (!pace.is_rapid) feed = Feed::per_minute(Length::mm(pace.rotary_feed));
+  if (!pace.is_rapid) feed = Feed::per_minute(Length::mm(pace.rotary_feed * state.mm_per_unit()));
   run.tilted.turn_to(run.origin, pose, feed, false);
   state.machine = run.tilted.flat();
   state.stand_at(state.transformation.to_program(values_of(state.machine)));
