@@ -25,6 +25,7 @@ void LineRecords::add(std::vector<Entry> entries) {
 
 std::size_t LineRecords::drop() {
   // Their callbacks can hold this object.
+  numbered_ = 0;
   return std::exchange(waiting_, {}).size();
 }
 
