@@ -59,6 +59,7 @@ int BrokerSocket::begin(const Address& address) {
   socket_ =
       Descriptor(::socket(address.bytes.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket_) return errno;
+  begun_ = std::chrono::steady_clock::now();
   const int on = 1;
   (void)::setsockopt(socket_.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   const auto* name = reinterpret_cast<const sockaddr*>(&address.bytes);
@@ -69,11 +70,14 @@ int BrokerSocket::begin(const Address& address) {
 Result<bool> BrokerSocket::connect() {
   if (is_connected_) return true;
   pollfd file{.fd = socket_.get(), .events = POLLOUT, .revents = 0};
-  if (::poll(&file, 1, 0) <= 0) return false;
-  int error = 0;
-  socklen_t size = sizeof error;
-  if (::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size) != 0) error = errno;
-  if (error == 0) return is_connected_ = true;
+  int error = ETIMEDOUT;
+  if (::poll(&file, 1, 0) > 0) {
+    socklen_t size = sizeof error;
+    if (::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size) != 0) error = errno;
+    if (error == 0) return is_connected_ = true;
+  } else if (untried_.empty() || std::chrono::steady_clock::now() - begun_ < kPatience) {
+    return false;
+  }
   if (auto next = try_next(error); !next) return fail(next.error());
   return false;
 }

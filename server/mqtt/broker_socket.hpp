@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sys/socket.h>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -27,6 +28,8 @@ class BrokerSocket {
   bool is_connected() const { return is_connected_; }
 
   static constexpr std::size_t kPiece = 16 * 1024;
+  /// With an address that is silent, while there are others.
+  static constexpr std::chrono::seconds kPatience{3};
 
  private:
   struct Address {
@@ -37,6 +40,7 @@ class BrokerSocket {
   int begin(const Address& address);
 
   std::deque<Address> untried_;
+  std::chrono::steady_clock::time_point begun_{};  ///< of the address that is tried
   Descriptor socket_;
   bool is_connected_ = false;
 };

@@ -79,6 +79,7 @@ std::uint16_t ClientSession::free_number() {
 
 void ClientSession::written(std::size_t size, SteadyTime now) {
   if (size == 0) return;
+  if (is_ping_open_ && written_ < ping_end_) pinged_ = now;  // more before it is gone, or itself
   written_ += size;
   sent_bytes_ += size;
   if (2 * sent_bytes_ >= output_.size()) output_.erase(0, std::exchange(sent_bytes_, 0));
@@ -94,13 +95,14 @@ Result<void> ClientSession::look(SteadyTime now) {
   const seconds own(introduction_.keep_alive);
   const seconds interval = wanted > 0 ? std::min(own, seconds(wanted)) : own;
   if (!is_connected_) return {};  // the caller has a limit for that
-  if (is_ping_open_ && now - pinged_ >= kPingAnswer)
+  if (is_ping_open_ && now - std::max(pinged_, heard_) >= kPingAnswer)
     return fail(Errc::Timeout, "has not answered for {} s", kPingAnswer.count());
   const bool is_quiet = now - sent_ >= interval || now - heard_ >= interval;
   if (is_ping_open_ || !is_quiet) return {};
   is_ping_open_ = true;
   pinged_ = now;
   output_ += empty_packet(PacketType::Pingreq);
+  ping_end_ = written_ + output().size();
   return {};
 }
 

@@ -78,6 +78,7 @@ class ClientSession {
   std::string output_;
   std::size_t sent_bytes_ = 0;  ///< of the output
   std::uint64_t written_ = 0;   ///< bytes since the beginning
+  std::uint64_t ping_end_ = 0;  ///< likewise: where the last PINGREQ ends
   /// QoS 0: where its end is, its number.
   std::deque<std::pair<std::uint64_t, std::uint64_t>> unwritten_;
   std::deque<std::pair<std::uint64_t, Message>> waiting_;  ///< for a place in flight

@@ -22,6 +22,7 @@ class WatchedSocket {
  public:
   void set(int made) {
     Descriptor copy(::fcntl(made, F_DUPFD_CLOEXEC, 0));
+    if (!copy) ::shutdown(made, SHUT_RDWR);  // what cannot be watched is not begun
     const std::lock_guard lock(mutex_);
     socket_ = std::move(copy);
   }
