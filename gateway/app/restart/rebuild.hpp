@@ -30,6 +30,7 @@ class Rebuild {
     storage::sqlite::Database& database;
     const machine::MotionBackend& machine;
     bool is_lathe = false;
+    bool is_tool_axis_manual = false;  ///< Dialect: the operator has raised the tool
     /// The axes are at the program's position + these lengths: before the approach.
     std::function<void(const interpreter::Position&, const machine::ToolLengths&)> begin_lengths;
     /// A block from the place on was interpreted: its modes are in force when it is executed.

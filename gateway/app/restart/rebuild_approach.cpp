@@ -86,6 +86,7 @@ interpreter::Position Rebuild::highest(interpreter::Axis up) const {
 
 /// Whether the run has shown that its highest place is clear to be led across at.
 bool Rebuild::is_clear(const interpreter::Position& highest, interpreter::Axis up) const {
+  if (parts_.is_tool_axis_manual) return true;
   const ReachedHeights& heights = reached_ ? *reached_ : parts_.tracker.delivered().heights;
   return highest.has(up) && heights.is_clear(up, highest.raw(up), *lengths_);
 }

@@ -37,6 +37,7 @@ Result<void> RunSession::begin_rebuild() {
                                                .database = parts_.checkpoints->database(),
                                                .machine = parts_.machine,
                                                .is_lathe = parts_.is_lathe,
+                                               .is_tool_axis_manual = dialect_.is_tool_axis_manual,
                                                .begin_lengths =
                                                    [this](const auto& at, const auto& lengths) {
                                                      parts_.machine.begin_lengths(lengths);

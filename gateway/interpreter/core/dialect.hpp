@@ -140,6 +140,8 @@ struct Dialect {
   /// It is certain for each move which length an axis of a real machine takes in: machines with
   /// axes of their own move with lengths in force (machine::AxisLengths).
   bool moves_with_length = false;
+  /// The control moves no tool axis: its operator does, by hand, before each start.
+  bool is_tool_axis_manual = false;
   /// Per minute: a feed at least as large is rapid traverse, for a control that has no word for it.
   std::optional<Length> rapid_feed = {};
 };

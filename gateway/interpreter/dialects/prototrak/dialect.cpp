@@ -137,6 +137,7 @@ const Dialect kProtoTrakDialect{.name = "prototrak-plus",
                                 .options = list_options,
                                 .text = {.kind = TextForm::Kind::Events, .is_all_programs = true},
                                 .status_fields = kStatusFields,
-                                .screen = screen};
+                                .screen = screen,
+                                .is_tool_axis_manual = true};
 
 }  // namespace dripline::interpreter

@@ -130,7 +130,7 @@ TEST_F(JoggedBoard, AGatewayThatIsKilledMeanwhileFindsTheBoardAtRest) {
 // The board rests in the middle of a block that a later jog completes along its path.
 TEST_F(JoggedBoard, AJogAfterAnAlarmExecutesNoBlock) {
   start(interpreter::kRs274NgcDialect);
-  shop->push("P", "G21 G90 F1200 G0 Y1\nG1 X10\nX20\nX30\nX40\nX50\nM2\n");
+  shop->push("P", "G21 G90 F1200 G0 Y1\nG1 Z-1\nX10\nX20\nX30\nX40\nX50\nM2\n");
   const auto first = shop->start_command("P");
   ASSERT_TRUE(shop->send(first).accepted);
   ASSERT_TRUE(shop->run_until([&] { return board->position()[0] > 12; }));
@@ -159,8 +159,8 @@ TEST_F(JoggedBoard, AJogAfterAnAlarmExecutesNoBlock) {
     });
   };
   ASSERT_TRUE(shop->run_until([&] { return report() != shop->records.end(); }));
-  // The first block has the modes, each other 10 mm.
-  const auto executed = 1 + static_cast<int>(rested / 10);
+  // The first two lead to the cut, each other is 10 mm.
+  const auto executed = 2 + static_cast<int>(rested / 10);
   EXPECT_EQ(nlohmann::json::parse(report()->text)["after"]["block"], executed) << report()->text;
 }
 

@@ -16,7 +16,8 @@ inline constexpr Part kParts[] = {
      "Z-2\nG2 X4 Z-2.5 R.5\nG1 X6\nG40 X7 Z-2\nGOSUB 100 L3\nG0 X0 Z.3\nG83 R.1 Z-1 V-.3 Q.35 E.04 "
      "F5\nP1=P1+1\nWEND\nM30\nN100 G91 G1 Z.02\nX.01\nG93\nRETURN\n"},
     {"fanuc", "[[tool]]\nnumber = 1\nradius = 4.0\n",
-     "O0540\nT1 M06\nM03 S900\nM08\n#1=1\nWHILE[#1LE15]DO1\nG90 G17 G00 X-15. Y-15. Z5.\nG41 G01 "
+     "O0540\nT1 M06\nM03 S900\nM08\n#1=1\nWHILE[#1LE15]DO1\nG90 G17 G00 X-15. Y-15. Z5.\nG01 Z-1. "
+     "F900\nG41 G01 "
      "X0 "
      "Y0 D1 F900\nY30.\nX[30.+#1]\nY0\nX0\nG40 X-15. Y-15.\nM98 P30561\nG99 G83 X1. Z-10. R2. Q3. "
      "F600\nX5.\nX[9.+#1]\nG80\n#1=#1+1\nEND1\nM30\nO0561\nG91 G01 X2. F500\nG02 X1. Y1. I1. "
@@ -34,7 +35,7 @@ inline constexpr Part kParts[] = {
      "units = \"mm\"\n[[tool]]\nnumber = 1\nradius = 2.0\n[control]\nprofile = \"linuxcnc\"\n",
      "G21 G90 F900\no1 sub\nG91 G1 X1\nG2 X1 Y1 I1 J0\nG90\no1 endsub\nT1 M6\nM3 "
      "S700\nM7\n#1=0\no2 while "
-     "[#1 lt 15]\nG40 G0 X-20 Y-20 Z3\nG41 D1 G1 X0 Y0\nY[30+#1]\nX30\nY0\nX0\nG40 G1 X-20 "
+     "[#1 lt 15]\nG40 G0 X-20 Y-20 Z3\nG1 Z-1\nG41 D1 G1 X0 Y0\nY[30+#1]\nX30\nY0\nX0\nG40 G1 X-20 "
      "Y-20\no1 "
      "call\no1 call\nG99 G83 X5 Y5 Z-8 R2 Q1.5 F500\nX[10+#1]\nG80\n#1=[#1+1]\no2 endwhile\nM2\n"},
     {"tnc155", "",
@@ -60,7 +61,7 @@ inline constexpr Part kParts[] = {
      "D0.5 CR0.5 T4 ;\n%\n"},
     {"tektronix-1704", "",
      "%\nF100M03\nZ20000\nG81X10000Y10000R1000Z-"
-     "5000\nX20000\nG82X30000\nG85X40000\nG00Z20000\nG01F40X20000"
+     "5000\nX20000\nG82X30000\nG85X40000\nG00Z20000\nG01F40Z1000\nX20000"
      "Y10000\nG03X10000Y20000I10000J10000\nX0Y10000\nG02X10000Y20000\nG01X0\nY0\nX30000\nY5000\nX0Y"
      "0\n"
      "G81X10000Y10000R1000Z-5000\nX20000\nX25000\nX35000\nG00Z20000\nM02\n"}};
