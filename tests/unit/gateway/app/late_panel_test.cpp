@@ -11,12 +11,13 @@ PanelCommand command_of_line(const char* line) {
 }
 
 TEST(LatePanelRequest, OnlyAStopIsCarriedOut) {
-  for (const char* stop : {"status", "hold", "abort", "emergency-stop", "emergency-stop on",
-                           "remote-enable off", "switch emergency_stop on"})
+  for (const char* stop :
+       {"status", "hold", "abort", "emergency-stop", "emergency-stop on", "feed-override 0",
+        "rapid-override 0", "remote-enable off", "switch emergency_stop on"})
     EXPECT_TRUE(is_stop(command_of_line(stop))) << stop;
   for (const char* other :
        {"cycle-start", "remote-enable on", "emergency-stop off", "switch emergency_stop off",
-        "answer 1", "switch single_block on", "feed-override 0", "rapid-override 0",
+        "answer 1", "switch single_block on", "feed-override 10", "rapid-override 100",
         "spindle-override 50", "handwheel 1", "home", "unlock", "rewind", "discard-memory"})
     EXPECT_FALSE(is_stop(command_of_line(other))) << other;
 }
