@@ -2,7 +2,6 @@
 #include <thread>
 
 #include "server/machines/machine_registry.hpp"
-#include "tests/support/child_process.hpp"
 #include "tests/unit/server/machines/machine_fixture.hpp"
 
 namespace dripline::server_test {
@@ -32,6 +31,7 @@ TEST_F(MachineRuns, SendAStartCommandAndAreActiveOnceItIsAccepted) {
 /// MOD functions take effect at once: a control's screen shows by the setup without a start.
 TEST_F(MachineRuns, AreNotNeededForTheSetupToBeShown) {
   start_service();
+  announce();
   ASSERT_TRUE(setups_->save({"lathe-1", "centurion", "[[tool]]\nnumber = 1\n", ""}, "cam"));
   const auto setups_shown = [&] {
     std::vector<std::string> shown;
@@ -48,17 +48,14 @@ TEST_F(MachineRuns, AreNotNeededForTheSetupToBeShown) {
     status.screen.emplace();
     network_.on_status(status);
   };
-  show();  // before it is announced
-  announce();
-  ASSERT_TRUE(test_support::eventually([&] {
-    show();
-    const std::lock_guard lock(written_->mutex);
-    return !setups_shown().empty() && setups_shown().back() == "[[tool]]\nnumber = 1\n";
-  })) << "at its beginning";
+  show();
+  ASSERT_TRUE(written_->wait([&] { return setups_shown().size() == 1; })) << "at its beginning";
+  EXPECT_EQ(setups_shown()[0], "[[tool]]\nnumber = 1\n");
+  show();
   ASSERT_TRUE(setups_->save({"lathe-1", "centurion", "[[tool]]\nnumber = 2\n", ""}, "cam"));
   service_->show_setup("lathe-1");
-  ASSERT_TRUE(written_->wait([&] { return setups_shown().back() == "[[tool]]\nnumber = 2\n"; }))
-      << "once it is stored";
+  ASSERT_TRUE(written_->wait([&] { return setups_shown().size() == 2; })) << "once it is stored";
+  EXPECT_EQ(setups_shown()[1], "[[tool]]\nnumber = 2\n");
   service_->show_setup("nothing");
 }
 
