@@ -81,23 +81,12 @@ TEST_F(ApproachHeight, IsNotThatBeforeTheRun) {
 constexpr const char* kCutsAtOneHeight =
     "O0210\nG21 G90 M03 S900\nG01 X20. F60\nN30 X60.\nN40 Y30.\nM00\nX0\nM30\n";
 
-class FlatProgram : public testing::Test {
+/// Its axes begin at Z-5, in the part.
+class FlatProgram : public ApproachHeight {
  protected:
-  /// The simulated axes begin at Z-5, in the part.
-  FlatProgram() {
-    interpreter::Setup setup;
-    setup.start.set(interpreter::Axis::Z, Length::mm(-5));
-    shop.emplace(interpreter::kFanucDialect, setup, "20x");
-  }
+  FlatProgram() : ApproachHeight(-5) {}
   void abort_at_stop(const std::string& text) {
-    shop->push("P", text);
-    shop->restart_gateway();
-    ASSERT_TRUE(shop->start_program("P").accepted);
-    run = shop->last_run();
-    ASSERT_TRUE(shop->run_until(
-        [&] { return shop->status && shop->status->execution == dds::Execution::ProgramStopped; }));
-    ASSERT_TRUE(shop->send(shop->command(dds::CommandAction::Abort)).accepted);
-    ASSERT_TRUE(shop->run_on());
+    ApproachHeight::abort_at_stop(text);
     shop->path.clear();
   }
   void key_in(const std::string& text) {
@@ -111,10 +100,6 @@ class FlatProgram : public testing::Test {
     }));
     shop->path.clear();
   }
-  Json restart(const std::string& at) { return shop->begin_restart("P", run, at); }
-
-  std::optional<RestartFixture> shop;
-  std::string run;
 };
 
 TEST_F(FlatProgram, IsLeftToTheOperatorWithThePlace) {
