@@ -52,9 +52,9 @@ std::string Approach::height_fault() const {
   }
   return fmt::format(
       "the axes are at{}, and no height is known to be clear for a move from there to{}, where the "
-      "program continues: at the heights that it has had it led across at feed alone. Bring the "
-      "axes to{} by hand or by MDI, clear of the part, and restart again (machine coordinates), or "
-      "restart at another block",
+      "program continues: at none above its cuts has it led across in rapid, or retracted to one. "
+      "Bring the axes to{} by hand or by MDI, clear of the part, and restart again (machine "
+      "coordinates), or restart at another block",
       now, place, place);
 }
 

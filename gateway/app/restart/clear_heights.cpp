@@ -43,11 +43,12 @@ void ClearHeights::move(const Move& move) {
 }
 
 void ClearHeights::move_along(Axis axis, const Move& move) {
-  const bool is_across = move.is_arc || leads_across(axis, move);  // a circle ends as it begins
+  const bool is_across =
+      move.kind == Kind::Arc || leads_across(axis, move);  // a circle ends as it begins
   const double lowered = move.from.raw(axis) - move.to.raw(axis);
   if (!has_moved_ && !is_across && lowered >= kLowered) begun_.set_raw(axis, move.from.raw(axis));
   if (!is_across && std::fabs(lowered) <= kStill) return;
-  move.is_rapid ? add_rapid(axis, move, is_across) : add_feed(axis, move, is_across);
+  move.kind == Kind::Rapid ? add_rapid(axis, move, is_across) : add_feed(axis, move, is_across);
 }
 
 void ClearHeights::add_rapid(Axis axis, const Move& move, bool is_across) {

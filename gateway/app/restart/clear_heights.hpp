@@ -17,10 +17,10 @@ namespace dripline::gateway {
 /// clearance.)
 class ClearHeights {
  public:
+  enum class Kind { Feed, Rapid, Arc };  ///< Feed and Rapid along a straight line
   struct Move {
     interpreter::Position from, to;  ///< `to` marks the axes of the program
-    bool is_rapid = false;
-    bool is_arc = false;
+    Kind kind = Kind::Feed;
   };
   void move(const Move& move);
 

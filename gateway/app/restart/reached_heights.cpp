@@ -75,7 +75,7 @@ void ReachedHeights::move(const Position& to, const Lengths& now, Kind kind) {
   Position reached = tip_at(now);
   reached.unmark_all();
   reached.mark_all_of(to);
-  clear.move({from, reached, kind == Kind::Rapid, kind == Kind::Arc});
+  clear.move({from, reached, kind});
 }
 
 /// An arc across the tool axis may be higher between its ends than at both of them.

@@ -22,7 +22,7 @@ struct ReachedHeights {
     bool shifts_position = false;  ///< Dialect::length_shifts_position
   };
 
-  enum class Kind { Feed, Rapid, Arc };  ///< of a move; Feed and Rapid along a straight line
+  using Kind = ClearHeights::Kind;  ///< of a move
 
   interpreter::Position at;        ///< of the program
   machine::ToolLengths lengths{};  ///< taken in by the axes
