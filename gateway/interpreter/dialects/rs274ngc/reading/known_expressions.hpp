@@ -21,7 +21,7 @@ double angle_of(double y, double x);
 
 /// The steps of one expression, in the order in which they are computed: values are put on a stack,
 /// the others replace those on top by what they give. Only what depends on nothing but parameters
-/// of the control's memory: names, signals and computed indexes are read anew each time.
+/// of the control's memory: names, signals and computed indexes are read each time.
 class KnownExpression {
  public:
   static constexpr std::size_t kMaxSteps = 12;
