@@ -51,6 +51,11 @@ TEST_F(MachineRuns, AreNotNeededForCommandsToAMachinesPanel) {
 
 /// A gateway with a screen answers queries; an older one would throw them away.
 TEST_F(MachineRuns, AreNotNeededToAskForTheValuesOfAControl) {
+  written_->on_command = [this](const dds::Command& command) {
+    if (command.argument != "P1") return;  // its setup is asked for by another thread
+    network_.on_command_result(
+        {.machine = "lathe-1", .id = command.id, .accepted = true, .reason = "", .values = "{}"});
+  };
   start_service();
   EXPECT_EQ(service_->values({.machine = "lathe-1", .beginning = ""}).error().code, Errc::NotFound);
   announce();
@@ -66,10 +71,6 @@ TEST_F(MachineRuns, AreNotNeededToAskForTheValuesOfAControl) {
   status.screen.emplace();
   network_.on_status(status);
   ASSERT_TRUE(written_->wait([&] { return written_->commands.size() == 1; })) << "its setup";
-  written_->on_command = [this](const dds::Command& command) {
-    network_.on_command_result(
-        {.machine = "lathe-1", .id = command.id, .accepted = true, .reason = "", .values = "{}"});
-  };
   const auto values = service_->values(query);
   ASSERT_TRUE(values) << values.error().what;
   EXPECT_EQ(*values, "{}");
