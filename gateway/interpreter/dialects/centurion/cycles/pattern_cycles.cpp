@@ -14,9 +14,9 @@ PlanePoint in_millimeters(const Run& run, const Point& point) {
   return {run.length(point.x).mm(), run.length(point.z).mm()};
 }
 
-bool refuse(Run& run, const Origin& at, const char* why) {
+bool refuse(Run& run, const Origin& at, std::string why) {
   run.origin = at;
-  return run.fail(ErrorCode::IllegalStatement, 0, why);
+  return run.fail(ErrorCode::IllegalStatement, 0, std::move(why));
 }
 
 BlockOutcome refuse_label(Run& run, TextSearch::Outcome outcome, std::uint32_t label) {
@@ -204,6 +204,29 @@ bool plan_pattern_cycle(Run& run) {
   return true;
 }
 
+namespace {
+
+/// After the passes the text goes on after the pattern. One before its cycle would be cut without
+/// end, and a block between the two never executed.
+BlockOutcome check_place(Run& run, TextSearch& search, const TextPosition& first) {
+  const PatternCycle& cycle = run.state.pattern;
+  const TextPosition& after_cycle = run.state.at;
+  if (first.offset < after_cycle.offset) {
+    refuse(run, cycle.origin, fmt::format("the pattern of G{} is before it", cycle.code));
+    return BlockOutcome::Paused;
+  }
+  std::uint64_t line = 0;
+  const TextSearch::Outcome outcome = search.find_content(after_cycle, first.offset, line);
+  if (outcome == TextSearch::Outcome::Missing) return BlockOutcome::NoBlock;
+  if (outcome != TextSearch::Outcome::Found) return refuse_search(run, outcome);
+  refuse(run, cycle.origin,
+         fmt::format("line {} is between G{} and its pattern: it would never be executed", line,
+                     cycle.code));
+  return BlockOutcome::Paused;
+}
+
+}  // namespace
+
 BlockOutcome enter_pattern(Run& run, TextSearch& search) {
   ModalState& state = run.state;
   PatternCycle& cycle = state.pattern;
@@ -218,6 +241,10 @@ BlockOutcome enter_pattern(Run& run, TextSearch& search) {
   if (last.offset < first.offset) {
     refuse(run, cycle.origin, "the pattern's last block is before its first");
     return BlockOutcome::Paused;
+  }
+  if (cycle.code != 70) {
+    const BlockOutcome checked = check_place(run, search, first);
+    if (checked != BlockOutcome::NoBlock) return checked;
   }
   cycle.program = last.program;
   cycle.end_offset = last.offset;

@@ -204,6 +204,21 @@ TextSearch::Outcome TextSearch::find_block(const BlockPlace& place, std::uint64_
   return Outcome::More;
 }
 
+TextSearch::Outcome TextSearch::find_content(const TextPosition& from, std::uint64_t end,
+                                             std::uint64_t& line) {
+  if (!same_place(content_from_, from)) content_from_ = content_next_ = from;
+  for (unsigned blocks = 0; blocks < kBlocksPerCall; ++blocks) {
+    if (content_next_.offset >= end) return Outcome::Missing;
+    const Outcome loaded = load(content_next_);
+    if (loaded != Outcome::Found) return loaded;
+    if (cursor_.offset() >= end) return Outcome::Missing;
+    line = content_next_.line;
+    if (read_head(cursor_.begin()).kind != BlockHead::Kind::Empty) return Outcome::Found;
+    cursor_.advance(content_next_);
+  }
+  return Outcome::More;
+}
+
 TextSearch::Outcome TextSearch::find_jump_back(const TextPosition& from, std::uint64_t& line) {
   if (back_blocks_ == 0 || !same_place(back_from_, from)) {
     back_from_ = back_next_ = from;

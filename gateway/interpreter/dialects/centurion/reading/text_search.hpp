@@ -45,6 +45,8 @@ class TextSearch {
   /// The first block from `place` on, in the text that was started, that has content; `offset`: of
   /// its first byte. For one place only.
   Outcome find_block(const BlockPlace& place, std::uint64_t& offset);
+  /// The first block with content from `from` on that begins before `end`; Missing: there is none.
+  Outcome find_content(const TextPosition& from, std::uint64_t end, std::uint64_t& line);
   /// The first block from `from` on that may jump back over it: a GOTO to a label of its program
   /// that is at `from` or before it, or one whose label is computed. Missing: none in the next
   /// kBlocksLookedAt blocks. `line`: of that block.
@@ -82,8 +84,9 @@ class TextSearch {
   bool programs_complete_ = false;
   std::array<LoopFrame, kKnownLoops> known_loops_{};
   std::size_t next_known_loop_ = 0;
-  TextPosition place_next_;             ///< of find_block
-  TextPosition back_from_, back_next_;  ///< of the search that was interrupted
+  TextPosition place_next_;                   ///< of find_block
+  TextPosition content_from_, content_next_;  ///< of the search that was interrupted
+  TextPosition back_from_, back_next_;        ///< of the search that was interrupted
   std::uint64_t back_blocks_ = 0;
   std::optional<std::uint32_t> back_label_;  ///< of the last GOTO, while its label is searched
   TextPosition loop_head_;                   ///< of the search that was interrupted
