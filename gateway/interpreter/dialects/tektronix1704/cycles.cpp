@@ -6,18 +6,13 @@
 namespace dripline::interpreter::tektronix1704 {
 namespace {
 
-/// R counts from where Z is, Z from R, when dimensions are incremental; both stay.
-void load_levels(Run& run) {
+/// Counts from R when dimensions are incremental, and stays.
+void load_depth(Run& run) {
   State& state = run.state;
   const Words& words = state.block.words;
-  if (words.has(Address::R)) {
-    state.clearance = (state.is_incremental ? state.program[kZ] : 0) + words[Address::R];
-    state.has_clearance = true;
-  }
-  if (words.has(Address::Z)) {
-    state.depth = (state.is_incremental ? state.clearance : 0) + words[Address::Z];
-    state.has_depth = true;
-  }
+  if (!words.has(Address::Z)) return;
+  state.depth = (state.is_incremental ? state.clearance : 0) + words[Address::Z];
+  state.has_depth = true;
 }
 
 /// Below R the tool leaves the hole first; above it, it comes down over the hole.
@@ -124,12 +119,19 @@ bool work_hole(Run& run) {
 
 }  // namespace
 
+void load_clearance(Run& run) {
+  State& state = run.state;
+  const bool is_incremental = state.is_incremental;
+  state.clearance = (is_incremental ? state.program[kZ] : 0) + state.block.words[Address::R];
+  state.has_clearance = true;
+}
+
 bool run_cycle(Run& run) {
   State& state = run.state;
   constexpr std::uint16_t kStarts = kEndWords | bit(Address::R);
   if (!state.block.words.has_any(kStarts)) return true;
-  load_levels(run);
-  run.ledger.take(kStarts);
+  load_depth(run);
+  run.ledger.take(kEndWords);
   const bool only_positions = state.cycle == 80;
   if (!only_positions && !state.has_clearance) return run.fail(Fault::NoClearance);
   if (!only_positions && !state.has_depth) return run.fail(Fault::NoDepth);

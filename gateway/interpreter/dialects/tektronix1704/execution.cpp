@@ -142,7 +142,7 @@ bool execute_motion(Run& run, OneShot one_shot) {
 bool execute_block(Run& run) {
   State& state = run.state;
   const Words& words = state.block.words;
-  run.ledger.open(words.present() & (kEndWords | kCenterWords | bit(Address::R)));
+  run.ledger.open(words.present() & (kEndWords | kCenterWords));
   if (run.options.units == UnitSet::Option1) [[unlikely]]
     round_to_steps(run);
   GFunction function{true};
@@ -156,6 +156,7 @@ bool execute_block(Run& run) {
   if (words.has(Address::F) && !is_dwell && !load_feed(run, words[Address::F])) return false;
   load_codes(run);
   if (words.has_any(kCenterWords)) load_center(run);
+  if (words.has(Address::R)) load_clearance(run);
   if (!do_m_before(run) || !execute_motion(run, function.one_shot)) return false;
   if (run.ledger.left() != 0 && !report_left_words(run)) return false;
   return do_m_after(run);

@@ -36,8 +36,10 @@ bool check_point(Run& run, const Counts& point);
 bool move_arc(Run& run);
 /// I, J and K alone fill their stores.
 void load_center(Run& run);
-/// The block in a fixed cycle (cycles.cpp; manual: G80 to G89): loads R and Z, positions, and works
-/// the hole as the cycle table says.
+/// R counts from where Z is when dimensions are incremental, and stays for the cycles that follow.
+void load_clearance(Run& run);
+/// The block in a fixed cycle (cycles.cpp; manual: G80 to G89): loads Z, positions, and works the
+/// hole as the cycle table says.
 bool run_cycle(Run& run);
 /// The block's motion in the active mode; true without doing anything when it has none.
 bool move_block(Run& run);
