@@ -20,7 +20,8 @@ XY middle(const ProgramEvent& event) {
 }
 
 /// How far inside the wall each clearing ring runs, innermost first; the last one is the rough wall
-/// pass. Rings follow each other until less than a step is left to the middle.
+/// pass. Rings follow each other until less than a step is left to the middle. Of a circle that is
+/// clear then: the tool comes down in its center.
 std::vector<double> ring_offsets(double to_middle, const ProgramEvent& event, std::size_t most) {
   const double step = kStepOver * event.diameter;
   std::vector<double> offsets{event.diameter / 2 + event.finish_cut};
@@ -114,7 +115,11 @@ bool Executor::clear_rectangle(const ProgramEvent& event) {
                 fmt::format("D {:.4f}, CR {:.4f} in a width of {:.4f}", event.shown(event.diameter),
                             event.shown(event.conrad), event.shown(2 * shorter)));
   }
-  const auto offsets = ring_offsets(shorter, event, kMaxRectangleRings);
+  auto offsets = ring_offsets(shorter, event, kMaxRectangleRings);
+  if (shorter - offsets.front() > event.diameter / 2 + kNoise) {
+    offsets.insert(offsets.begin(),
+                   shorter);  // else a rib would stay along the longer side's middle
+  }
   if (offsets.size() > kMaxRectangleRings) {
     return fail(Fault::ToolDoesNotFit, "more than 200 passes");
   }
