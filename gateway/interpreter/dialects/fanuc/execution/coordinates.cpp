@@ -230,6 +230,18 @@ bool set_data(Run& run) {
   return run.fail(ErrorCode::IllegalPInG10, words.column(L), fmt::format("G10 L{}", list));
 }
 
+namespace {
+
+/// One corner of the zone alone, that would be beyond the stored other one.
+bool refuse_zone(Run& run, std::size_t axis) {
+  const StrokeZone& zone = run.state.zone;
+  return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
+                  fmt::format("G22: {} {:.4f} mm is below {} {:.4f} mm", letter(kAllAxes[axis]),
+                              zone.high[axis], "IJK"[axis], zone.low[axis]));
+}
+
+}  // namespace
+
 bool set_stroke_zone(Run& run) {
   ModalState& state = run.state;
   const std::uint8_t code = run.block.g[kStrokeGroup];
@@ -245,7 +257,9 @@ bool set_stroke_zone(Run& run) {
       state.zone.high[i] = run.coordinate(static_cast<Axis>(i), words[kOneCorner[i]]);
     if (words.has(kOther[i]))
       state.zone.low[i] = run.coordinate(static_cast<Axis>(i), words[kOther[i]]);
-    if (state.zone.low[i] > state.zone.high[i]) std::swap(state.zone.low[i], state.zone.high[i]);
+    if (state.zone.low[i] <= state.zone.high[i]) continue;
+    if (!words.has(kOneCorner[i]) || !words.has(kOther[i])) return refuse_zone(run, i);
+    std::swap(state.zone.low[i], state.zone.high[i]);
   }
   state.zone.is_on = state.zone.has_volume();
   return true;

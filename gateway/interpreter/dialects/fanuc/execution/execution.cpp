@@ -21,13 +21,18 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-void change_units(Run& run) {
+bool change_units(Run& run) {
   ModalState& state = run.state;
   const Units units = state.g[kUnitsGroup] == 20 ? Units::Inch : Units::Millimeter;
-  if (units == state.units) return;
+  if (units == state.units) return true;
+  if (state.is_compensating()) {
+    return run.fail(ErrorCode::ImproperCommand, run.block.parts.g_column,
+                    "the units change in cutter compensation");
+  }
   state.units = units;
   run.update_increments();
   if (state.has_header) run.events().on_units({run.origin, units});
+  return true;
 }
 
 /// A group 01 and a group 09 code end or begin the mode of hole cycles; of both the later counts.
@@ -66,7 +71,7 @@ bool apply_modes(Run& run) {
     const auto group = static_cast<std::size_t>(std::countr_zero(left));
     state.g[group] = block.g[group];
   }
-  if (block.names(kUnitsGroup)) change_units(run);
+  if (block.names(kUnitsGroup) && !change_units(run)) return false;
   if (block.names(kPathGroup)) show_override_inhibit(run);
   const bool changes_plane =
       block.names(kPlaneGroup) && state.g[kPlaneGroup] != block.g[kPlaneGroup];
