@@ -33,10 +33,11 @@ class LatePanel : public testing::Test {
   }
   std::string give(const char* line, const std::string& why_late) {
     std::string answer;
-    fixture_.gateway->receive(PanelRequest{.command = command_of_line(line),
-                                           .answer = [&](std::string text) { answer = text; },
-                                           .why_late = [&] { return why_late; }},
-                              fixture_.clock.steady);
+    fixture_.gateway->receive(
+        PanelRequest{.command = command_of_line(line),
+                     .answer = [&](std::string text) { answer = std::move(text); },
+                     .why_late = [&] { return why_late; }},
+        fixture_.clock.steady);
     return answer;
   }
   GatewayFixture fixture_;

@@ -47,7 +47,7 @@ TEST(PanelOfAGatewayThatRecovers, TakesStopsAndNothingElse) {
     if (!answers.empty()) return requests;
     for (const char* line : {"home", "hold", "emergency-stop"})
       requests.push_back({.command = parse_panel_command(line).value(),
-                          .answer = [&](std::string text) { answers.push_back(text); }});
+                          .answer = [&](std::string text) { answers.push_back(std::move(text)); }});
     return requests;
   };
   looks = 0;
