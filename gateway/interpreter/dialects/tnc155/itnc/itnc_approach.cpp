@@ -257,7 +257,8 @@ bool use_feed(Run& run, const Block& block, Pace& pace) {
     if (!(state.tool_feed > 0)) {
       return run.fail(ErrorCode::FeedRateMissing, "F AUTO, and TOOL CALL had no F");
     }
-    state.feed = state.rotary_feed = state.tool_feed;
+    state.feed = state.tool_feed;
+    state.rotary_feed = rotary_feed_of(run, state.feed);
   }
   return read_feed(run, block) && pace_of(run, block, pace);
 }

@@ -102,7 +102,8 @@ bool use_tool_feed(Run& run) {
   if (!(run.state.tool_feed > 0)) {
     return run.fail(ErrorCode::FeedRateMissing, "F AUTO, and TOOL CALL had no F");
   }
-  run.state.feed = run.state.rotary_feed = run.state.tool_feed;
+  run.state.feed = run.state.tool_feed;
+  run.state.rotary_feed = rotary_feed_of(run, run.state.feed);
   return true;
 }
 
@@ -176,6 +177,13 @@ bool retract(Run& run, const Block& block) {
 }
 
 }  // namespace
+
+/// F of an inch program is tenths of an inch, of a rotary axis degrees.
+double rotary_feed_of(const Run& run, double feed) {
+  constexpr double kTenths = 10;
+  const bool is_inch = run.state.units == Units::Inch;
+  return is_inch ? feed * kTenths / Length::kMillimetersPerInch : feed;
+}
 
 bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   const ItncWords& words = run.parts.itnc;

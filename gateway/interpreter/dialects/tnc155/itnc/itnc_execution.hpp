@@ -19,6 +19,8 @@ bool approach(Run& run, const Block& block);
 bool depart(Run& run, const Block& block);
 /// RND and CHF with a feed of their own.
 bool corner(Run& run, const Block& block);
+/// Degrees per minute that the F of `feed`, millimeters per minute, is for a rotary axis alone.
+double rotary_feed_of(const Run& run, double feed);
 /// TOOL CALL with DL, DR and F.
 bool call_tool(Run& run, const Block& block);
 bool use_preset(Run& run, int number);

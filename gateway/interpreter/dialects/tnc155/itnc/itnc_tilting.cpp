@@ -118,54 +118,6 @@ Tilt tilt_of(const Run& run, Tilt::Kind kind) {
   return tilt;
 }
 
-Matrix3 from_columns(const Point3& x, const Point3& z) {
-  const Point3 y = tilting::cross(z, x);
-  return {{x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]}};
-}
-
-/// BX, BY, BZ: the plane's X axis; NX, NY, NZ: its normal. Both of any length, and at right angles.
-bool frame_of_vectors(Run& run, const std::array<double, 6>& values, Matrix3& frame) {
-  Point3 base{values[0], values[1], values[2]}, normal{values[3], values[4], values[5]};
-  const double base_size = tilting::length(base), normal_size = tilting::length(normal);
-  constexpr double kNoVector = 1e-9, kRight = 1e-3;
-  if (base_size < kNoVector || normal_size < kNoVector)
-    return run.fail(ErrorCode::EntryOutOfRange, "PLANE VECTOR: a vector has no length");
-  base = (1 / base_size) * base;
-  normal = (1 / normal_size) * normal;
-  const double along = tilting::dot(base, normal);
-  if (std::fabs(along) > kRight)
-    return run.fail(ErrorCode::EntryOutOfRange,
-                    "PLANE VECTOR: the vectors are not at right angles");
-  base = base - along * normal;
-  frame = from_columns((1 / tilting::length(base)) * base, normal);
-  return true;
-}
-
-/// Spatial angles are about the fixed axes X, then Y, then Z; Euler angles about Z, the X that it
-/// has turned, and the Z that both have.
-bool frame_of_plane(Run& run, Matrix3& frame) {
-  const PlaneWords& plane = run.parts.itnc.plane;
-  std::array<double, 6> values{};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!plane.values[i].empty() && !evaluate(run, plane.values[i], values[i])) return false;
-  }
-  const auto about = tilting::rotation_about;
-  switch (plane.form) {
-    case PlaneForm::Spatial:
-      frame = about(2, values[2]) * about(1, values[1]) * about(0, values[0]);
-      return true;
-    case PlaneForm::Euler:
-      frame = about(2, values[0]) * about(0, values[1]) * about(2, values[2]);
-      return true;
-    case PlaneForm::Vector:
-      return frame_of_vectors(run, values, frame);
-    default:
-      frame = (is_plane(run) ? run.tilted.state().tilt.frame : Matrix3{}) *
-              about(plane.axis, values[0]);
-      return true;
-  }
-}
-
 /// SEQ decides by the angle of the first rotary axis from the tool, or the last from the table.
 double sequence_angle(const Kinematics& machine, Pose zero, Pose pose) {
   return machine.type == KinematicType::HeadHead ? pose.slave - zero.slave
@@ -227,20 +179,24 @@ void keep_plane_angles(Run& run, Pose zero, Pose pose) {
 }
 
 /// TURN and MOVE: F, FMAX or F AUTO of the block.
-bool pace_of_turn(Run& run, const Block& block, std::optional<Feed>& feed) {
-  if (block.is_rapid) return true;
-  double degrees = 0;
-  if (run.parts.itnc.is_auto_feed) degrees = run.state.tool_feed;
-  if (block.feed.is_programmed() && !read_cycle_feed(run, block.feed, degrees)) return false;
-  if (!(degrees > 0))
-    return run.fail(ErrorCode::FeedRateMissing, "PLANE with TURN or MOVE needs F");
-  feed = Feed::per_minute(Length::mm(degrees));
-  return true;
+bool pace_of_turn(Run& run, const Block& block, Pace& pace) {
+  pace = {block.is_rapid, 0, 0};
+  if (pace.is_rapid) return true;
+  if (run.parts.itnc.is_auto_feed) pace.feed = run.state.tool_feed;
+  if (block.feed.is_programmed() && !read_cycle_feed(run, block.feed, pace.feed)) return false;
+  pace.rotary_feed = rotary_feed_of(run, pace.feed);
+  return pace.feed > 0 || run.fail(ErrorCode::FeedRateMissing, "PLANE with TURN or MOVE needs F");
+}
+
+/// Of the rotary axes, as the stage takes it: a degree is as long as a unit of the program.
+std::optional<Feed> turning_feed(const Run& run, const Pace& pace) {
+  if (pace.is_rapid) return {};
+  return Feed::per_minute(Length::mm(pace.rotary_feed * run.state.mm_per_unit()));
 }
 
 /// MB: the tool goes back along its axis before the rotary axes turn. In front of a table that is
 /// Z.
-bool retract_before_turn(Run& run, const std::optional<Feed>& feed) {
+bool retract_before_turn(Run& run, const Pace& pace) {
   const ItncWords& words = run.parts.itnc;
   const bool goes_back = words.retracts_to_limit || words.retract.is_programmed();
   if (!goes_back) return true;
@@ -260,20 +216,19 @@ bool retract_before_turn(Run& run, const std::optional<Feed>& feed) {
     return fail_tilt(run, "MB while the rotary axes are not where the plane has them");
   Target target = here(state);
   target.set(Axis::Z, target.at[index(Axis::Z)] + distance);
-  Pace pace{!feed, feed ? feed->length().mm() : 0, 0};
   line_to(run, target, pace);
   return true;
 }
 
 /// With the tool's place on the workpiece kept.
-void turn_around_tip(Run& run, Tilt tilt, Pose pose, const std::optional<Feed>& feed) {
+void turn_around_tip(Run& run, Tilt tilt, Pose pose, const Pace& pace) {
   const Tilt::Kind kind = tilt.kind;
   tilt.kind = Tilt::Kind::TipControl;
   run.tilted.begin(tilt, run.state.machine);
   Position to = run.tilted.flat();
   to.set_raw(run.options.kinematics.master.axis, pose.master);
   to.set_raw(run.options.kinematics.slave.axis, pose.slave);
-  if (feed) {
+  if (const auto feed = turning_feed(run, pace)) {
     run.tilted.on_line({run.origin, to, *feed});
   } else {
     run.tilted.on_rapid({run.origin, to});
@@ -291,22 +246,24 @@ bool tilt_plane(Run& run, const Block& block) {
     return fail_tilt(run, "PLANE after a datum shift in a tilted plane: PLANE RESET before it");
   Tilt tilt = tilt_of(run, Tilt::Kind::Plane);
   Pose pose;
-  std::optional<Feed> feed;
-  if (!frame_of_plane(run, tilt.frame) || !choose_pose(run, tilt, pose)) return false;
-  if (words.turn != PlaneTurn::Stay && !pace_of_turn(run, block, feed)) return false;
+  Pace pace;
+  if (!frame_of_plane(run, is_plane(run) ? run.tilted.state().tilt.frame : Matrix3{}, tilt.frame) ||
+      !choose_pose(run, tilt, pose))
+    return false;
+  if (words.turn != PlaneTurn::Stay && !pace_of_turn(run, block, pace)) return false;
   if (words.turn == PlaneTurn::Move && run.length(run.parts.itnc.length) != 0)
     return fail_tilt(run, "DIST of PLANE MOVE other than 0");
   run.events();
-  if (!retract_before_turn(run, feed)) return false;
+  if (!retract_before_turn(run, pace)) return false;
   if (run.tilted.is_on()) end_tilt(run);
   interrupt_contour(run);
-  if (words.turn == PlaneTurn::Move) turn_around_tip(run, tilt, pose, feed);
+  if (words.turn == PlaneTurn::Move) turn_around_tip(run, tilt, pose, pace);
   begin_tilt(run, tilt);
   state.plane_pose = {pose.master, pose.slave};
   state.plane_shift = state.transformation.shift;
   keep_plane_angles(run, tilt.zero, pose);
   if (words.turn != PlaneTurn::Turn) return true;
-  run.tilted.turn_to(run.origin, pose, feed, false);
+  run.tilted.turn_to(run.origin, pose, turning_feed(run, pace), false);
   enter_frame(run, run.tilted.flat());
   return true;
 }
@@ -321,13 +278,13 @@ bool reset_plane(Run& run, const Block& block) {
     run.warn("TNC-ACCEPTED", "PLANE RESET STAY is not followed: no plane is tilted");
     return true;
   }
-  std::optional<Feed> feed;
+  Pace pace;
   if (moves_axes && !check_tilt_begins(run, "PLANE RESET")) return false;
-  if (moves_axes && !pace_of_turn(run, block, feed)) return false;
+  if (moves_axes && !pace_of_turn(run, block, pace)) return false;
   if (words.turn == PlaneTurn::Move && run.length(run.parts.itnc.length) != 0)
     return fail_tilt(run, "DIST of PLANE MOVE other than 0");
   run.events();
-  if (moves_axes && !retract_before_turn(run, feed)) return false;
+  if (moves_axes && !retract_before_turn(run, pace)) return false;
   const Tilt flat = tilt_of(run, Tilt::Kind::Plane);
   if (is_plane(run)) {
     for (std::size_t i = 0; i < 3; ++i)
@@ -338,10 +295,10 @@ bool reset_plane(Run& run, const Block& block) {
   if (!moves_axes) return true;
   interrupt_contour(run);
   if (words.turn == PlaneTurn::Move) {
-    turn_around_tip(run, flat, flat.zero, feed);
+    turn_around_tip(run, flat, flat.zero, pace);
   } else {
     run.tilted.begin(flat, state.machine);
-    run.tilted.turn_to(run.origin, flat.zero, feed, false);
+    run.tilted.turn_to(run.origin, flat.zero, turning_feed(run, pace), false);
     state.machine = run.tilted.machine();
     run.tilted.end();
   }

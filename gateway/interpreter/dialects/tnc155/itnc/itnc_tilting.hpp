@@ -8,6 +8,8 @@
 namespace dripline::interpreter::tnc155::itnc {
 
 bool set_plane(Run& run, const Block& block);
+/// The axes of the plane that the block's words give; `present`: those of the plane in force.
+bool frame_of_plane(Run& run, const tilting::Matrix3& present, tilting::Matrix3& frame);
 /// FUNCTION TCPM.
 bool change_tip_control(Run& run, const Block& block);
 /// M128, before the move; M129, after it.

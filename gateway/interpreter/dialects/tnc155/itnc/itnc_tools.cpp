@@ -53,7 +53,8 @@ bool call_tool(Run& run, const Block& block) {
   if (call.target != Block::kNone) state.tool_feed = 0;
   if (words.feed.is_programmed()) {
     if (!read_cycle_feed(run, words.feed, state.tool_feed)) return false;
-    state.feed = state.rotary_feed = state.tool_feed;
+    state.feed = state.tool_feed;
+    state.rotary_feed = rotary_feed_of(run, state.feed);
   }
   return true;
 }
