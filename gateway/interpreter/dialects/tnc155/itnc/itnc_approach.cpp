@@ -5,6 +5,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/approach_geometry.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 
 /// APPR and DEP. Source: TNC 410, TNC 426 and iTNC 530, User's Manuals: contour approach and
@@ -72,54 +73,6 @@ bool check_modes(Run& run, const Block& block, std::string_view name) {
   return check_circle_plane(run);
 }
 
-/// The arc of the tool's center, tangential to the contour's element.
-struct TangentArc {
-  PlaneVector at;  ///< where it meets the contour
-  PlaneVector center;
-  double radius = 0;
-  Turn turn = Turn::Counterclockwise;
-  double sign() const { return turn == Turn::Counterclockwise ? 1 : -1; }
-};
-
-PlaneVector rotated(PlaneVector vector, double degrees) {
-  const PlaneVector along = unit_vector(degrees);
-  return along.first * vector + along.second * left_of(vector);
-}
-
-/// `from` is the contour's point, `along` its direction there. R above 0: from the side of the
-/// compensation; below 0: from the other.
-TangentArc tangent_arc(Run& run, Compensation side, PlaneVector from, PlaneVector along) {
-  const State& state = run.state;
-  const double tool = state.tool.data.radius / state.transformation.factor(state.plane);
-  const double radius = run.length(run.parts.itnc.arc_radius);
-  const bool is_left = side == Compensation::Left;
-  const PlaneVector normal = (is_left ? 1.0 : -1.0) * left_of(along);
-  TangentArc arc;
-  arc.at = from + tool * normal;
-  arc.center = arc.at + radius * normal;
-  arc.radius = std::fabs(radius);
-  arc.turn = is_left == (radius > 0) ? Turn::Counterclockwise : Turn::Clockwise;
-  return arc;
-}
-
-/// Where the straight line from `point` (`is_before`), or to it, touches the circle.
-PlaneVector tangent_point(const TangentArc& arc, PlaneVector point, bool is_before) {
-  const PlaneVector out = point - arc.center;
-  const double ratio = std::fmin(1, arc.radius / length(out));
-  const double angle = std::acos(ratio) * (180 / Angle::kPi);
-  return arc.center + ratio * rotated(out, (is_before ? 1 : -1) * arc.sign() * angle);
-}
-
-double sweep_between(const TangentArc& arc, PlaneVector from, PlaneVector to) {
-  constexpr double kFull = 360;
-  constexpr double kNoAngle = 1e-7;
-  const PlaneVector begin = from - arc.center;
-  const PlaneVector end = to - arc.center;
-  double sweep = arc.sign() * std::atan2(cross(begin, end), dot(begin, end)) * (180 / Angle::kPi);
-  if (sweep < 0) sweep += kFull;
-  return sweep > kFull - kNoAngle ? 0 : sweep;
-}
-
 bool go_around(Run& run, const TangentArc& arc, PlaneVector to, double sweep, const Pace& pace) {
   constexpr double kNoAngle = 1e-7;
   if (sweep < kNoAngle) return true;
@@ -134,52 +87,6 @@ bool go_around(Run& run, const TangentArc& arc, PlaneVector to, double sweep, co
   if (!begin_move(run, block, move)) return false;
   arc_to(run, target, pace);
   return finish_move(run, block, move);
-}
-
-/// Where LP leads from `from`.
-PlaneVector polar_end(Run& run, const Block& next, PlaneVector from) {
-  const PlaneVector pole = pole_in_plane(run.state);
-  const PlaneVector out = from - pole;
-  double radius = length(out);
-  double angle = std::atan2(out.second, out.first) * (180 / Angle::kPi);
-  if (next.radius.is_programmed())
-    radius = run.length(next.radius) + (next.is_radius_incremental ? radius : 0);
-  if (next.angle.is_programmed())
-    angle = run.number(next.angle) + (next.is_angle_incremental ? angle : 0);
-  return pole + radius * unit_vector(angle);
-}
-
-PlaneVector line_end(Run& run, const Block& next, PlaneVector from) {
-  const PlaneAxes axes = axes_of(run.state.plane);
-  PlaneVector to = from;
-  for (const Coordinate& word : next.words()) {
-    const double value = run.coordinate(word.axis, word.value);
-    if (word.axis == axes.first) to.first = value + (word.is_incremental ? from.first : 0);
-    if (word.axis == axes.second) to.second = value + (word.is_incremental ? from.second : 0);
-  }
-  return to;
-}
-
-/// The direction in which the contour leaves `from`: of length 1; (0, 0) where it is not known.
-PlaneVector begin_direction(Run& run, const Block& next, PlaneVector from) {
-  const State& state = run.state;
-  const bool is_arc = next.kind == BlockKind::Arc || next.kind == BlockKind::PolarArc;
-  const bool is_polar_line = next.kind == BlockKind::PolarLine;
-  if ((is_arc || is_polar_line) && !state.has_pole) return {};
-  if (is_arc) {
-    const PlaneVector out = from - pole_in_plane(state);
-    const double radius = length(out);
-    if (radius == 0) return {};
-    const double sign = next.turn == Turn::Clockwise ? -1 : 1;
-    return (sign / radius) * left_of(out);
-  }
-  if ((next.kind != BlockKind::Line && !is_polar_line) || next.m != Block::kNone) return {};
-  const PlaneVector to = is_polar_line ? polar_end(run, next, from) : line_end(run, next, from);
-  const PlaneVector path = to - from;
-  const double distance = length(path);
-  constexpr double kNoTravel = 1e-6;
-  if (distance < kNoTravel) return {};
-  return (1 / distance) * path;
 }
 
 /// From the contour's point to the auxiliary point, for the tool's center. `sign`: 1 after the end,
