@@ -44,6 +44,7 @@ struct ControlOptions {
   double basic_rotation = 0;  ///< degrees, as the probe measured it
 
   double pocket_overlap = 1;  ///< factor k: stepover of pockets as a share of the tool radius
+  double plunge_angle = 0;    ///< ANGLE of a later control's tools, degrees; 0: straight down only
   bool m89_modal = true;      ///< M89 is the modal cycle call; else a free M function
   bool m06_stop = false;      ///< M06 stops the program
   bool central_tool_file = false;

@@ -36,7 +36,8 @@ void visit(Archive& archive, State& state) {
           state.is_restart, state.has_positioned, state.program_name, state.cycle_words,
           state.tool_feed, state.pole_plane, state.has_rounded, state.has_plane_angles,
           state.takes_shorter_path, state.is_rapid_next, state.beside, state.is_beside,
-          state.plane_pose, state.plane_shift, state.doubtful_shift, state.known_retained);
+          state.plane_pose, state.plane_shift, state.doubtful_shift, state.known_retained,
+          state.has_open_place);
 }
 
 namespace {
@@ -44,7 +45,7 @@ namespace {
 std::string_view dialect_of(const Run& run) {
   return run.options.is_itnc ? "itnc" : "tnc155";
 }
-constexpr std::uint32_t kVersion = 12;
+constexpr std::uint32_t kVersion = 13;
 
 bool is_plausible(const MachiningCycle& cycle) {
   return std::ranges::all_of(

@@ -228,7 +228,9 @@ struct State {
   /// in another, is not known.
   std::array<bool, 3> doubtful_shift{};
   bool is_rapid_next = false;  ///< the last positioning block had FMAX: the path to an approach
-  bool has_rounded = false;    ///< a comparison of a later control took two values as equal
+  /// A cycle has ended at a place in the plane that the control's manual does not state.
+  bool has_open_place = false;
+  bool has_rounded = false;  ///< a comparison of a later control took two values as equal
   CycleState cycle;
   BlankState blank;
 

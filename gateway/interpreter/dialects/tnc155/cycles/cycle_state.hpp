@@ -11,8 +11,8 @@ namespace dripline::interpreter::tnc155 {
 /// A complete definition of a machining cycle (1-5, 12). Lengths are millimeters with
 /// their signs, feeds millimeters per minute, dwells seconds.
 struct MachiningCycle {
-  std::uint8_t number = 0;  ///< 0: none was defined
-  double clearance = 0;     ///< set-up
+  std::uint16_t number = 0;  ///< 0: none was defined
+  double clearance = 0;      ///< set-up
   double depth = 0;
   double peck = 0;
   double dwell = 0;
@@ -38,7 +38,7 @@ struct ProbeState {
 /// The state that cycle definitions leave for calls and later blocks.
 struct CycleState {
   bool is_modal_call = false;  ///< M89
-  std::uint8_t defining = 0;   ///< cycle whose sub-blocks come now
+  std::uint16_t defining = 0;  ///< cycle whose sub-blocks come now
   std::uint8_t next_part = 0;  ///< which one comes next
   bool is_complete = true;     ///< no sub-block is missing
   std::uint64_t block = 0;     ///< of the run: the last sub-block

@@ -6,6 +6,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/cycle_table_run.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/milling.hpp"
 
 namespace dripline::interpreter::tnc155::itnc {
 namespace {
@@ -118,6 +119,11 @@ double passes_of(const Table& table) {
     }
     case kChipTap:
       return table.of(257) > 0 ? depth / table.of(257) : 1;
+    case kRectangularPocket:
+    case kCircularPocket:
+    case kSlot:
+    case kRoundSlot:
+      return passes_of_pocket(table, table.run().state.cycle.machining.number);
     case kBoreMill:
       return depth / table.of(334);
     default:
@@ -131,6 +137,7 @@ bool check_values(Run& run, const Table& table, int cycle) {
   };
   if (cycle == kBackBore) return check_back_bore(run, table);
   if (table.of(201) > 0) return wrong(201, "is above the surface");
+  if (is_pocket(cycle)) return check_pocket(run, table, cycle);
   if (!is_rigid(cycle) && !(table.of(206) > 0)) return wrong(206, "is no feed");
   if (is_rigid(cycle) && table.of(239) == 0) return wrong(239, "is no pitch");
   if (cycle == kBore && !check_disengagement(run, table)) return false;

@@ -12,7 +12,7 @@
 
 namespace dripline::interpreter::tnc155::itnc {
 
-enum Cycle : std::uint8_t {
+enum Cycle : std::uint16_t {
   kDrill = 200,
   kReam = 201,
   kBore = 202,
@@ -23,11 +23,16 @@ enum Cycle : std::uint8_t {
   kRigidTap = 207,
   kBoreMill = 208,
   kChipTap = 209,
-  kCenter = 240
+  kCenter = 240,
+  kRectangularPocket = 251,
+  kCircularPocket = 252,
+  kSlot = 253,
+  kRoundSlot = 254
 };
 /// One that a pattern repeats.
 constexpr bool is_at_a_point(int cycle) {
-  return (cycle >= kDrill && cycle <= kChipTap) || cycle == kCenter;
+  return (cycle >= kDrill && cycle <= kChipTap) || cycle == kCenter ||
+         (cycle >= kRectangularPocket && cycle <= kSlot);
 }
 /// The spindle runs with the feed, and the cycle starts it itself.
 constexpr bool is_rigid(int cycle) {

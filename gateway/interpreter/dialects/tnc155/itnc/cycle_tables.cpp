@@ -101,6 +101,83 @@ constexpr std::array kCartesianWords{kClearance,        kSurface,           kSec
                                      P{225, U::Length}, P{226, U::Length},  P{237, U::Length},
                                      P{238, U::Length}, P{242, U::Number},  P{243, U::Number},
                                      P{224, U::Number}, P{301, U::Distance}};
+constexpr P kExtent{215, U::Number}, kSide{368, U::Distance}, kMilling{207, U::Feed},
+    kClimb{351, U::Number}, kInfeed{202, U::Distance}, kFloor{369, U::Distance},
+    kFinishInfeed{338, U::Distance, false}, kOverlap{370, U::Number}, kEntry{366, U::Number},
+    kFinishFeed{385, U::Feed, false}, kFeedReference{439, U::Zero, false};
+constexpr std::array kRectangularPocketWords{kExtent,
+                                             P{218, U::Distance},
+                                             P{219, U::Distance},
+                                             P{220, U::Distance},
+                                             kSide,
+                                             P{224, U::Number},
+                                             P{367, U::Number},
+                                             kMilling,
+                                             kClimb,
+                                             kDepth,
+                                             kInfeed,
+                                             kFloor,
+                                             kPlunge,
+                                             kFinishInfeed,
+                                             kClearance,
+                                             kSurface,
+                                             kSecond,
+                                             kOverlap,
+                                             kEntry,
+                                             kFinishFeed,
+                                             kFeedReference};
+constexpr std::array kCircularPocketWords{kExtent,       P{223, U::Distance},
+                                          kSide,         kMilling,
+                                          kClimb,        kDepth,
+                                          kInfeed,       kFloor,
+                                          kPlunge,       kFinishInfeed,
+                                          kClearance,    kSurface,
+                                          kSecond,       kOverlap,
+                                          kEntry,        kFinishFeed,
+                                          kFeedReference};
+constexpr std::array kSlotWords{kExtent,
+                                P{218, U::Distance},
+                                P{219, U::Distance},
+                                kSide,
+                                P{374, U::Number},
+                                P{367, U::Number},
+                                kMilling,
+                                kClimb,
+                                kDepth,
+                                kInfeed,
+                                kFloor,
+                                kPlunge,
+                                kFinishInfeed,
+                                kClearance,
+                                kSurface,
+                                kSecond,
+                                kEntry,
+                                kFinishFeed,
+                                kFeedReference};
+constexpr std::array kRoundSlotWords{kExtent,
+                                     P{219, U::Distance},
+                                     kSide,
+                                     P{375, U::Distance},
+                                     P{367, U::Zero},
+                                     P{216, U::Length},
+                                     P{217, U::Length},
+                                     P{376, U::Number},
+                                     P{248, U::Number},
+                                     P{378, U::Number},
+                                     P{377, U::Number},
+                                     kMilling,
+                                     kClimb,
+                                     kDepth,
+                                     kInfeed,
+                                     kFloor,
+                                     kPlunge,
+                                     kFinishInfeed,
+                                     kClearance,
+                                     kSurface,
+                                     kSecond,
+                                     kEntry,
+                                     kFinishFeed,
+                                     kFeedReference};
 constexpr std::array kPresetWords{P{339, U::Number}};
 constexpr std::array kBoreMillingWords{kClearance,
                                        kDepth,
@@ -142,6 +219,14 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kCartesianWords;
     case 240:
       return kCenteringWords;
+    case 251:
+      return kRectangularPocketWords;
+    case 252:
+      return kCircularPocketWords;
+    case 253:
+      return kSlotWords;
+    case 254:
+      return kRoundSlotWords;
     case 247:
       return kPresetWords;
     default:

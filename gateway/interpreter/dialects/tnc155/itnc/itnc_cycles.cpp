@@ -47,7 +47,7 @@ bool read_cycle_word(Reading& in, int cycle) {
 /// The lines of Q words after that of the number and the name.
 bool read_table(Reading& in, int cycle, const char* block_end) {
   in.block.kind = BlockKind::CycleTable;
-  in.block.cycle = static_cast<std::uint8_t>(cycle);
+  in.block.cycle = static_cast<std::uint16_t>(cycle);
   const char* name_end = in.end;
   const char* words = std::find(name_end, block_end, '\n');
   if (words == block_end) {

@@ -9,6 +9,7 @@
 #include "gateway/interpreter/dialects/tnc155/itnc/cycle_table_run.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_tilting.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/milling.hpp"
 
 /// Cycles 200 to 209 and 240. Source: iTNC 530 (and TNC 426/430), User's Manual, Cycles: drilling,
 /// tapping and thread milling; the steps of each are in this folder's README.
@@ -258,6 +259,7 @@ void mill_bore(const Table& table) {
 }  // namespace
 
 void make_cycle(const Table& table, int cycle) {
+  if (is_pocket(cycle)) return mill_pocket(table, cycle);
   table.rapid(table.clearance());
   switch (cycle) {
     case kDrill:
@@ -293,6 +295,7 @@ bool check_call(Run& run, const Table& table, bool& is_idle) {
   const State& state = run.state;
   const int cycle = state.cycle.machining.number;
   if (!refuse_before_positioning(run, "a cycle call")) return false;
+  if (!check_place_is_known(run)) return false;
   if (!check_tilted_cycle(run, "a cycle")) return false;
   if (state.is_compensating() || state.is_parallel || state.blend.kind != BlendKind::None) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted,
@@ -321,6 +324,7 @@ bool run_table(Run& run) {
   make_cycle(table, cycle);
   state.last = LastMove{};
   state.polar.is_current = false;
+  state.has_open_place = leaves_place_open(table, cycle);
   return true;
 }
 

@@ -193,7 +193,8 @@ bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   if (words.is_auto_feed && block.kind != BlockKind::Approach && !use_tool_feed(run)) return false;
   const bool is_plain = !run.state.cycle.is_modal_call && !run.state.takes_shorter_path &&
                         !words.retracts && words.tip == TipWords::None && !run.tilted.is_on() &&
-                        run.state.doubtful_shift == std::array<bool, 3>{};
+                        run.state.doubtful_shift == std::array<bool, 3>{} &&
+                        !run.state.has_open_place;
   if (words.m_count == 0 && block.m == Block::kNone && is_plain) [[likely]]
     return move(run, block);
   Extras extras;
@@ -203,7 +204,7 @@ bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   if (words.tip == TipWords::Begin && !begin_tip_control(run)) return false;
   if (words.retracts) return retract(run, block) && finish(run, extras, moves);
   bool is_made = false;
-  if (!check_shift_is_known(run, block)) return false;
+  if (!check_shift_is_known(run, block) || !leave_open_place(run, block)) return false;
   if (run.tilted.is_on() && !check_tilted_move(run, block, is_made)) return false;
   return (is_made || move(run, block)) && finish(run, extras, moves);
 }
@@ -328,6 +329,7 @@ bool cycle_call_at(Run& run, const Block& block) {
   over.set(axes.second, target.at[index(axes.second)]);
   line_to(run, over, pace);
   state.has_positioned = true;
+  state.has_open_place = false;
   state.cycle.is_modal_call = false;
   return call_cycle(run) && finish(run, extras);
 }

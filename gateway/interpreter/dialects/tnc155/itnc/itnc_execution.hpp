@@ -40,6 +40,9 @@ bool read_system(Run& run, const Block& block);
 /// FN 16: the mask's text with the values now.
 bool print(Run& run, const Block& block);
 
+/// After a slot whose end is not stated: both axes of the plane, absolute, come first.
+bool check_place_is_known(Run& run);
+bool leave_open_place(Run& run, const Block& block);
 inline constexpr int kFirstTable = 200;  ///< cycles from this number on are tables of Q words
 bool define_table(Run& run, const Block& block);
 /// A call of the cycle that was defined last, with a number from 200 on.

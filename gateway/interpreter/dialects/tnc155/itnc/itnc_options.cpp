@@ -38,6 +38,10 @@ constexpr auto kOwnRows = std::array{
                                "cycle 11 scales all main axes; else those of the plane"),
     row<&C::pocket_overlap>("pocket_overlap", kNumber,
                             "stepover of cycles 4 and 5 as a share of the tool radius", kPositive),
+    row<&C::plunge_angle>("plunge_angle", kNumber,
+                          "ANGLE of the tool table: how steeply cycles 251 to 254 plunge along a "
+                          "helix or to and fro; 0: not at all, 90: straight down",
+                          {0, 90}, "degrees"),
     row<&C::m89_modal>("m89_modal", kFlag,
                        "M89 calls the cycle after each positioning block; else a free M function"),
     row<&C::compares_rounded>(

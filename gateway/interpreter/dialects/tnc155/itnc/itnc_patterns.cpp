@@ -6,6 +6,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/cycle_table_run.hpp"
 #include "gateway/interpreter/dialects/tnc155/itnc/itnc_execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/itnc/milling.hpp"
 
 /// Cycles 220 and 221: they act where they are defined, and call the cycle that was defined before
 /// them at each of their points (TNC 426, TNC 320 and iTNC 530, User's Manuals: point patterns).
@@ -150,6 +151,7 @@ bool make_pattern(Run& run, const Pattern& pattern, const std::vector<PlaneVecto
   state.last = LastMove{};
   state.polar.is_current = false;
   state.has_positioned = true;
+  state.has_open_place = leaves_place_open(table, state.cycle.machining.number);
   return true;
 }
 
@@ -160,8 +162,9 @@ bool run_pattern(Run& run, int cycle, const std::vector<double>& words) {
   const int called = state.cycle.machining.number;
   const Pattern pattern(run, cycle, words);
   if (!is_at_a_point(called)) {
-    return run.fail(ErrorCode::CycleIncomplete,
-                    fmt::format("CYCL DEF {} without a cycle 200 to 209 or 240 before it", cycle));
+    return run.fail(
+        ErrorCode::CycleIncomplete,
+        fmt::format("CYCL DEF {} without a cycle before it that a pattern can call", cycle));
   }
   if (state.cycle.is_modal_call) {
     return run.fail(ErrorCode::NotSupported,
@@ -178,6 +181,7 @@ bool run_pattern(Run& run, int cycle, const std::vector<double>& words) {
   const auto rows = cycle_table(cycle);
   for (std::size_t i = 0; i < rows.size(); ++i) run.set_q(rows[i].q, words[i]);
   use_shared(run, pattern);
+  state.has_open_place = false;
   const bool is_made = make_pattern(run, pattern, points);
   state.cycle_words = defined;  // a call after the pattern compares with its own definition
   return is_made;

@@ -47,7 +47,7 @@ bool refuse_keyword(Reading& in, const char* start) {
   }
   std::string words(start, in.end);
   constexpr std::size_t kShown = 40;
-  if (words.size() > kShown) words = words.substr(0, kShown) + "...";
+  if (words.size() > kShown) words.replace(kShown, std::string::npos, "...");
   return in.cursor.wrong(ErrorCode::BlockFormatIncorrect, start,
                          fmt::format("no block of this control begins so: {}", words));
 }

@@ -130,7 +130,7 @@ struct Block {
   bool is_maximum = false;          ///< BlankForm
 
   std::uint8_t function = 0;    ///< of Function: 0-12
-  std::uint8_t cycle = 0;       ///< CycleDefinition: 1-5, 7-12
+  std::uint16_t cycle = 0;      ///< CycleDefinition: 1-5, 7-12
   std::uint8_t part = 0;        ///< CycleDefinition: the digit after the point; Probe: 0, 1;
                                 ///< Approach, Departure: LT, LN, CT, LCT
   std::optional<Axis> axis;     ///< ToolCall (see is_fourth), BlankForm: spindle axis; Probe 0: its
