@@ -138,6 +138,7 @@ bool check_values(Run& run, const Table& table, int cycle) {
   if (cycle == kBackBore) return check_back_bore(run, table);
   if (table.of(201) > 0) return wrong(201, "is above the surface");
   if (is_pocket(cycle)) return check_pocket(run, table, cycle);
+  if (cycle == kThread) return check_thread(run, table);
   if (!is_rigid(cycle) && !(table.of(206) > 0)) return wrong(206, "is no feed");
   if (is_rigid(cycle) && table.of(239) == 0) return wrong(239, "is no pitch");
   if (cycle == kBore && !check_disengagement(run, table)) return false;

@@ -27,12 +27,13 @@ enum Cycle : std::uint16_t {
   kRectangularPocket = 251,
   kCircularPocket = 252,
   kSlot = 253,
-  kRoundSlot = 254
+  kRoundSlot = 254,
+  kThread = 262
 };
 /// One that a pattern repeats.
 constexpr bool is_at_a_point(int cycle) {
   return (cycle >= kDrill && cycle <= kChipTap) || cycle == kCenter ||
-         (cycle >= kRectangularPocket && cycle <= kSlot);
+         (cycle >= kRectangularPocket && cycle <= kSlot) || cycle == kThread;
 }
 /// The spindle runs with the feed, and the cycle starts it itself.
 constexpr bool is_rigid(int cycle) {

@@ -178,6 +178,9 @@ constexpr std::array kRoundSlotWords{kExtent,
                                      kEntry,
                                      kFinishFeed,
                                      kFeedReference};
+constexpr std::array kThreadWords{
+    P{335, U::Distance}, P{239, U::Length}, kDepth,  P{355, U::Number}, P{253, U::Feed}, kClimb,
+    kClearance,          kSurface,          kSecond, kMilling};
 constexpr std::array kPresetWords{P{339, U::Number}};
 constexpr std::array kBoreMillingWords{kClearance,
                                        kDepth,
@@ -227,6 +230,8 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kSlotWords;
     case 254:
       return kRoundSlotWords;
+    case 262:
+      return kThreadWords;
     case 247:
       return kPresetWords;
     default:

@@ -260,6 +260,7 @@ void mill_bore(const Table& table) {
 
 void make_cycle(const Table& table, int cycle) {
   if (is_pocket(cycle)) return mill_pocket(table, cycle);
+  if (cycle == kThread) return mill_thread(table);
   table.rapid(table.clearance());
   switch (cycle) {
     case kDrill:

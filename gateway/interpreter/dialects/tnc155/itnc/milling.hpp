@@ -44,6 +44,9 @@ bool check_above_zero(Run& run, const Table& table, std::initializer_list<int> p
 /// Q351: -1, 0 or 1. A scaling of other than the plane's axes would make arcs that are none.
 bool check_milling(Run& run, const Table& table);
 
+bool check_thread(Run& run, const Table& table);
+void mill_thread(const Table& table);
+
 constexpr bool is_pocket(int cycle) {
   return cycle >= 251 && cycle <= 254;
 }
