@@ -37,7 +37,7 @@ void visit(Archive& archive, State& state) {
           state.tool_feed, state.pole_plane, state.has_rounded, state.has_plane_angles,
           state.takes_shorter_path, state.is_rapid_next, state.beside, state.is_beside,
           state.plane_pose, state.plane_shift, state.doubtful_shift, state.known_retained,
-          state.has_open_place);
+          state.has_open_place, state.has_linear_rotary_feed);
 }
 
 namespace {

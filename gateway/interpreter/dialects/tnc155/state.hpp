@@ -217,10 +217,11 @@ struct State {
 
   std::vector<double> q = std::vector<double>(kParameterCount);  ///< a later control has more
   std::bitset<kRetainedParameters> known_retained;  ///< QR: set by the program or the setup
-  std::vector<double> cycle_words;  ///< of a later control's cycle, in the order of its rows
-  double tool_feed = 0;             ///< F of TOOL CALL: F AUTO
-  bool has_plane_angles = false;    ///< Q120 to Q122, which are 0: no plane is tilted
-  bool takes_shorter_path = false;  ///< M126
+  std::vector<double> cycle_words;      ///< of a later control's cycle, in the order of its rows
+  double tool_feed = 0;                 ///< F of TOOL CALL: F AUTO
+  bool has_plane_angles = false;        ///< Q120 to Q122, which are 0: no plane is tilted
+  bool takes_shorter_path = false;      ///< M126
+  bool has_linear_rotary_feed = false;  ///< M116
   /// Where PLANE has computed the rotary axes to be; they may not be there yet.
   std::optional<std::array<double, 2>> plane_pose;
   AxisValues plane_shift{};  ///< the datum shift that was in force when the plane was tilted

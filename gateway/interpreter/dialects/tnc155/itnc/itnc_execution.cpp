@@ -42,6 +42,7 @@ bool sort_m(Run& run, Extras& extras) {
       extras.ends = true;
     } else if (is_without_effect(m)) {
       if (m == 126 || m == 127) run.state.takes_shorter_path = m == 126;
+      if (m == 116 || m == 117) run.state.has_linear_rotary_feed = m == 116;
       if (m == 90 || m == 107 || m == 108 || m == 120) {
         run.warn("TNC-ACCEPTED", fmt::format("M{} says nothing about the path here", m));
       }
@@ -123,6 +124,25 @@ bool check_shorter_path(Run& run, const Block& block) {
   return true;
 }
 
+/// M116: F of a rotary axis is millimeters a minute, which depends on how far the tool is from the
+/// axis. In rapid traverse, and under M128 where F is that of the tip, it changes nothing.
+bool check_linear_rotary_feed(Run& run, const Block& block) {
+  if (block.is_rapid) return true;
+  bool moves_tip = false;
+  std::optional<Axis> rotary;
+  for (const Coordinate& word : block.words()) {
+    const double value = run.coordinate(word.axis, word.value);
+    const bool moves = word.is_incremental ? value != 0 : value != run.state.nominal_of(word.axis);
+    if (moves && is_rotary(word.axis)) rotary = word.axis;
+    moves_tip |= moves && !is_rotary(word.axis);
+  }
+  const bool is_tip_feed = run.tilted.kind() == tilting::Tilt::Kind::TipControl && moves_tip;
+  return !rotary || is_tip_feed ||
+         run.fail(ErrorCode::NotSupported,
+                  fmt::format("{} at a feed under M116, in millimeters a minute: M117 before it",
+                              letter(*rotary)));
+}
+
 /// M140: back along the tool axis, in rapid traverse where the block has no F.
 bool retract(Run& run, const Block& block) {
   State& state = run.state;
@@ -192,7 +212,8 @@ bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   if (moves && block.kind != BlockKind::Approach) run.state.is_rapid_next = block.is_rapid;
   if (words.is_auto_feed && block.kind != BlockKind::Approach && !use_tool_feed(run)) return false;
   const bool is_plain = !run.state.cycle.is_modal_call && !run.state.takes_shorter_path &&
-                        !words.retracts && words.tip == TipWords::None && !run.tilted.is_on() &&
+                        !run.state.has_linear_rotary_feed && !words.retracts &&
+                        words.tip == TipWords::None && !run.tilted.is_on() &&
                         run.state.doubtful_shift == std::array<bool, 3>{} &&
                         !run.state.has_open_place;
   if (words.m_count == 0 && block.m == Block::kNone && is_plain) [[likely]]
@@ -204,6 +225,7 @@ bool position(Run& run, const Block& block, bool (*move)(Run&, const Block&)) {
   if (words.tip == TipWords::Begin && !begin_tip_control(run)) return false;
   if (words.retracts) return retract(run, block) && finish(run, extras, moves);
   bool is_made = false;
+  if (run.state.has_linear_rotary_feed && !check_linear_rotary_feed(run, block)) return false;
   if (!check_shift_is_known(run, block) || !leave_open_place(run, block)) return false;
   if (run.tilted.is_on() && !check_tilted_move(run, block, is_made)) return false;
   return (is_made || move(run, block)) && finish(run, extras, moves);

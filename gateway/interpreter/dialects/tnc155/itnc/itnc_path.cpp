@@ -41,6 +41,7 @@ bool read_m(Reading& in, const char* start) {
       case 108:
       case 111:
       case 115:
+      case 116:
       case 117:
       case 120:
       case 126:

@@ -184,6 +184,8 @@ bool pace_of_turn(Run& run, const Block& block, Pace& pace) {
   if (pace.is_rapid) return true;
   if (run.parts.itnc.is_auto_feed) pace.feed = run.state.tool_feed;
   if (block.feed.is_programmed() && !read_cycle_feed(run, block.feed, pace.feed)) return false;
+  if (run.state.has_linear_rotary_feed)
+    return run.fail(ErrorCode::NotSupported, "PLANE with TURN or MOVE at a feed under M116");
   pace.rotary_feed = rotary_feed_of(run, pace.feed);
   return pace.feed > 0 || run.fail(ErrorCode::FeedRateMissing, "PLANE with TURN or MOVE needs F");
 }
