@@ -201,6 +201,14 @@ bool define_table(Run& run, const Block& block) {
     run.set_q(339, preset);
     return use_preset(run, static_cast<int>(preset));
   }
+  if (block.cycle == kTuning) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!note_definition(run, block, rows[i].q)) return false;
+      run.set_q(rows[i].q, values[i]);
+    }
+    run.warn("TNC-ACCEPTED", "CYCL DEF 392 (tuning of the axes) is not followed");
+    return true;
+  }
   if (is_pattern(block.cycle)) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (!note_definition(run, block, rows[i].q)) return false;

@@ -181,6 +181,7 @@ constexpr std::array kRoundSlotWords{kExtent,
 constexpr std::array kThreadWords{
     P{335, U::Distance}, P{239, U::Length}, kDepth,  P{355, U::Number}, P{253, U::Feed}, kClimb,
     kClearance,          kSurface,          kSecond, kMilling};
+constexpr std::array kTuningWords{P{240, U::Number}, P{241, U::Number}};
 constexpr std::array kPresetWords{P{339, U::Number}};
 constexpr std::array kBoreMillingWords{kClearance,
                                        kDepth,
@@ -232,6 +233,8 @@ std::span<const CycleParameter> cycle_table(int cycle) {
       return kRoundSlotWords;
     case 262:
       return kThreadWords;
+    case kTuning:
+      return kTuningWords;
     case 247:
       return kPresetWords;
     default:

@@ -27,6 +27,8 @@ constexpr bool is_pattern(int cycle) {
   return cycle == kPolarPattern || cycle == kCartesianPattern;
 }
 
+/// A machine builder's, how the axes are tuned: it moves nothing and leaves the cycle of a call.
+inline constexpr int kTuning = 392;
 inline constexpr int kRetractionFeed = 208;
 /// What a parameter holds whose feed is FMAX.
 inline constexpr double kRapidFeed = 99'999;
