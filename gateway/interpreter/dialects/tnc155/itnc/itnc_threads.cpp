@@ -24,7 +24,8 @@ struct ThreadPlan {
     goes_up = (table.of(239) > 0) == is_climb;
     revolutions = threads == kAllTurns ? (surface - bottom) / pitch : 1;
     step = threads > kAllTurns ? threads * pitch : 0;
-    paths = step > 0 ? static_cast<int>(std::ceil((surface - bottom) / step - 1e-9)) : 1;
+    const double count = step > 0 ? std::min((surface - bottom) / step, 2 * kMaxThreadTurns) : 1;
+    paths = static_cast<int>(std::ceil(count - 1e-9));
   }
   double sign() const { return goes_up ? 1 : -1; }
   /// Where the thread of a path begins.

@@ -85,7 +85,10 @@ double passes_of_pocket(const Table& table, int cycle) {
   double ramps = 0;
   if (whole_word(table, 366) != 0 && table.run().options.plunge_angle > 0) {
     const double slope = std::tan(table.run().options.plunge_angle * (Angle::kPi / 180));
-    const double length = std::max(kLeastHelix * tool, ramp_length(shape, 0, tool));
+    const double helix = helix_radius(shape.room - table.mm(368), tool);
+    const bool is_helix = whole_word(table, 366) == kHelical && helix > 0;
+    const double length = is_helix ? 2 * Angle::kPi * helix
+                                   : std::max(kLeastHelix * tool, ramp_length(shape, 0, tool));
     ramps = depth / slope / length;
   }
   const double repeats = cycle == kRoundSlot ? table.of(377) : 1;

@@ -75,7 +75,9 @@ double stepover(const Table& table, int cycle, double tool) {
 }
 
 int lines_to(double room, double step) {
-  return room > kSameLength ? static_cast<int>(std::ceil(room / step - kSliverOfStep)) : 0;
+  constexpr double kMaxLines = 1e6;  // more than a call may have
+  if (room <= kSameLength) return 0;
+  return static_cast<int>(std::ceil(std::min(room / step, kMaxLines) - kSliverOfStep));
 }
 
 double helix_radius(double room, double tool) {
