@@ -209,5 +209,49 @@ TEST(ItncPockets, RoundSlotsAreCutToTheirWall) {
   }
 }
 
+// The tool keeps its radius where a scaling halves the slot; an inch program states all of it in
+// inches.
+TEST(ItncPockets, FollowRotationScalingAndInches) {
+  struct Case {
+    const char* units;
+    const char* before;
+    double scale, rotation;
+  };
+  for (const Case& with :
+       {Case{"MM",
+             "CYCL DEF 10.0 A\nCYCL DEF 10.1 ROT+30\nCYCL DEF 11.0 A\nCYCL DEF 11.1 SCL 0.5\n", 0.5,
+             30},
+        Case{"INCH", "", 25.4, 0}}) {
+    SCOPED_TRACE(with.units);
+    const bool is_inch = with.scale > 1;
+    const double tool = is_inch ? 0.2 * with.scale : 2;
+    std::string text = fmt::format(
+        "BEGIN PGM P {0}\nTOOL DEF 1 L+0 R+{1}\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+6 R0 FMAX M3\n{2}"
+        "L X+1 Y+2 FMAX\nCYCL DEF 253 SLOT ~\nQ218={3} ;~\nQ219={4} ;~\nQ374=20 ;~\nQ367=0 ;~\n",
+        with.units, is_inch ? 0.2 : 2, with.before, is_inch ? 3 : 40, is_inch ? 1.5 : 20);
+    text +=
+        "Q215=0 ;~\nQ368=0.1 ;~\nQ207=50 ;~\nQ351=1 ;~\nQ201=-2 ;~\nQ202=0.7 ;~\nQ369=0.1 ;~\n"
+        "Q206=15 ;~\nQ338=0 ;~\nQ200=0.5 ;~\nQ203=0 ;~\nQ204=3 ;~\nQ366=1 ;~\nQ385=40\n";
+    const auto lines = static_cast<unsigned>(std::count(text.begin(), text.end(), '\n'));
+    const MilledPath path =
+        mill(text + fmt::format("CYCL CALL\nEND PGM P {}\n", with.units), kAngle, lines + 1);
+    const double radians = with.rotation * (Angle::kPi / 180);
+    const PlaneVector center = with.scale * PlaneVector{std::cos(radians) - 2 * std::sin(radians),
+                                                        std::sin(radians) + 2 * std::cos(radians)};
+    MilledRegion region;
+    region.tool = tool;
+    region.figures = {slot_wall(center, 20 + with.rotation, (is_inch ? 3 : 40) * with.scale,
+                                (is_inch ? 1.5 : 20) * with.scale)};
+    region.middle = center;
+    region.width = (is_inch ? 3 : 40) * with.scale;
+    region.bottom = -2 * with.scale;
+    region.clearance = 0.5 * with.scale;
+    std::mt19937 random(1);
+    expect_region(path, region, random);
+    if (HasFatalFailure()) return;
+    EXPECT_NEAR(path.points.back().height, 3 * with.scale, 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace dripline::interpreter

@@ -75,6 +75,81 @@ double from_wall(const MilledRegion& region, PlaneVector point) {
   return best;
 }
 
+/// In the material: no nearer to the wall than the tool's radius and the allowance, and no deeper
+/// than an infeed at once; rapid moves go down no further than the clearance.
+void expect_within(const MilledPath& path, const MilledRegion& region) {
+  const double least = region.tool + region.allowance;
+  double deepest = region.surface, before = path.points.front().height;
+  for (const MilledPoint& point : path.points) {
+    ASSERT_GE(point.height, region.bottom - kSame);
+    if (point.height < region.surface - kSame) {
+      ASSERT_GE(from_wall(region, point.at), least - kSame)
+          << point.at.first << " " << point.at.second << " " << point.height;
+    }
+    if (point.is_rapid && point.height < region.clearance - kSame) {
+      ASSERT_GE(point.height, before - kSame) << "rapid down below the clearance";
+    }
+    if (region.infeed > 0) {
+      ASSERT_LE(deepest - point.height, region.infeed + kSame) << "more than an infeed at once";
+      deepest = std::min(deepest, point.height);
+    }
+    before = point.height;
+  }
+}
+
+/// Along the wall, where the inside is on one side of it alone.
+void expect_direction(const MilledPath& path, const MilledRegion& region) {
+  const double least = region.tool + region.allowance;
+  const auto is_along = [&](const MilledPoint& point) {
+    return !point.is_rapid && point.height < region.surface - kSame &&
+           std::fabs(from_wall(region, point.at) - least) < kSame;
+  };
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    const MilledPoint &before = path.points[i - 1], &point = path.points[i];
+    const PlaneVector by = point.at - before.at;
+    const double size = length_of(by);
+    if (!is_along(point) || !is_along(before) || size < 0.01) continue;
+    const PlaneVector middle = 0.5 * (point.at + before.at);
+    const PlaneVector left = (0.05 / size) * PlaneVector{-by.second, by.first};
+    const double gain = from_wall(region, middle + left) - from_wall(region, middle - left);
+    if (std::fabs(gain) < 0.02) continue;
+    ASSERT_EQ(gain > 0, region.is_counterclockwise) << "direction along the wall";
+  }
+}
+
+/// What the tool can reach is cut to the bottom.
+void expect_cleared(const MilledPath& path, const MilledRegion& region, std::mt19937& random) {
+  const double half = region.width / 2;
+  for (int i = 0; i < 60; ++i) {
+    const PlaneVector center =
+        region.middle + PlaneVector{between(random, -half, half), between(random, -half, half)};
+    if (from_wall(region, center) < region.tool + region.allowance) continue;
+    const PlaneVector material =
+        center + (between(random, 0, 0.999) * region.tool) * along(between(random, 0, 360));
+    double nearest = 1e9;
+    for (const MilledPoint& point : path.points) {
+      if (point.is_rapid || point.height > region.bottom + kSame) continue;
+      nearest = std::min(nearest, length_of(point.at - material));
+    }
+    ASSERT_LE(nearest, region.tool + 0.02) << material.first << " " << material.second;
+  }
+}
+
+/// A rapid move within the workpiece passes only what was cut as deep before.
+void expect_free_rapids(const MilledPath& path, const MilledRegion& region) {
+  for (auto point = path.points.begin(); point != path.points.end(); ++point) {
+    if (!point->is_rapid || point->height >= region.surface || !point->is_new_move) continue;
+    for (int n = 0; n < 4; ++n) {
+      const PlaneVector edge = point->at + (0.98 * region.tool) * along(90 * n + 17);
+      const bool is_free = std::any_of(path.points.begin(), point, [&](const MilledPoint& cut) {
+        return !cut.is_rapid && cut.height <= point->height + kSame &&
+               length_of(cut.at - edge) <= region.tool + 0.02;
+      });
+      ASSERT_TRUE(is_free) << "rapid through what is not cut yet";
+    }
+  }
+}
+
 }  // namespace
 
 MilledPath mill(const std::string& program, const std::string& setup, unsigned from_line) {
@@ -127,69 +202,12 @@ WallDistance round_slot_wall(PlaneVector center, double radius, double angle, do
 void expect_region(const MilledPath& path, const MilledRegion& region, std::mt19937& random) {
   ASSERT_EQ(path.alarm, "");
   ASSERT_FALSE(path.points.empty());
-  const double least = region.tool + region.allowance;
-  const MilledPoint* before = nullptr;
-  double deepest = region.surface;
-  for (const MilledPoint& point : path.points) {
-    ASSERT_GE(point.height, region.bottom - kSame);
-    if (point.height < region.surface - kSame) {
-      ASSERT_GE(from_wall(region, point.at), least - kSame)
-          << point.at.first << " " << point.at.second << " " << point.height;
-    }
-    if (before != nullptr && point.is_rapid && point.height < region.clearance - kSame) {
-      ASSERT_GE(point.height, before->height - kSame) << "rapid down below the clearance";
-    }
-    if (region.infeed > 0) {
-      ASSERT_LE(deepest - point.height, region.infeed + kSame) << "more than an infeed at once";
-      deepest = std::min(deepest, point.height);
-    }
-    if (before != nullptr && !point.is_rapid && !region.is_as_wide_as_tool &&
-        point.height < region.surface - kSame &&
-        std::fabs(from_wall(region, point.at) - least) < kSame &&
-        std::fabs(from_wall(region, before->at) - least) < kSame) {
-      const PlaneVector by = point.at - before->at;
-      const PlaneVector left{-by.second, by.first};
-      const PlaneVector middle = 0.5 * (point.at + before->at);
-      const double size = length_of(by);
-      if (size > 0.01) {
-        const double gain = from_wall(region, middle + (0.05 / size) * left) -
-                            from_wall(region, middle + (-0.05 / size) * left);
-        if (std::fabs(gain) > 0.02) {
-          ASSERT_EQ(gain > 0, region.is_counterclockwise) << "direction along the wall";
-        }
-      }
-    }
-    before = &point;
+  ASSERT_NO_FATAL_FAILURE(expect_within(path, region));
+  if (!region.is_as_wide_as_tool) {
+    ASSERT_NO_FATAL_FAILURE(expect_direction(path, region));
   }
-  for (int i = 0; i < 60; ++i) {
-    const PlaneVector center =
-        region.middle + PlaneVector{between(random, -region.width / 2, region.width / 2),
-                                    between(random, -region.width / 2, region.width / 2)};
-    if (from_wall(region, center) < least) continue;
-    const PlaneVector material =
-        center + (between(random, 0, 0.999) * region.tool) * along(between(random, 0, 360));
-    double nearest = 1e9;
-    for (const MilledPoint& point : path.points) {
-      if (point.is_rapid || point.height > region.bottom + kSame) continue;
-      nearest = std::min(nearest, length_of(point.at - material));
-    }
-    ASSERT_LE(nearest, region.tool + 0.02) << material.first << " " << material.second;
-  }
-  // A rapid move within the workpiece passes only what was cut as deep before.
-  for (std::size_t i = 1; i < path.points.size(); ++i) {
-    const MilledPoint& point = path.points[i];
-    if (!point.is_rapid || point.height >= region.surface || !point.is_new_move) continue;
-    for (int n = 0; n < 4; ++n) {
-      const PlaneVector edge = point.at + (0.98 * region.tool) * along(90 * n + 17);
-      const bool is_free =
-          std::any_of(path.points.begin(), path.points.begin() + static_cast<long>(i),
-                      [&](const MilledPoint& cut) {
-                        return !cut.is_rapid && cut.height <= point.height + kSame &&
-                               length_of(cut.at - edge) <= region.tool + 0.02;
-                      });
-      ASSERT_TRUE(is_free) << "rapid through what is not cut yet";
-    }
-  }
+  ASSERT_NO_FATAL_FAILURE(expect_cleared(path, region, random));
+  ASSERT_NO_FATAL_FAILURE(expect_free_rapids(path, region));
 }
 
 double between(std::mt19937& random, double low, double high) {
