@@ -308,6 +308,7 @@ bool read_system(Run& run, const Block& block) {
   const double unit = state.mm_per_unit();
   const bool is_moved = place >= 1 && place <= 3 && state.machine.has(static_cast<Axis>(place - 1));
   const bool is_position = id == 270 || id == 240;
+  if (is_position && !check_place_is_known(run)) return false;
   const bool is_of_table = id == 50 && place > 0;
   const bool is_rebuilt =
       id == 220 || is_of_table || (is_position ? is_moved : state.tool.is_called);
