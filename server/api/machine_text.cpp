@@ -243,7 +243,7 @@ void write_display(Writer& out, const machines::MachineView& view) {
 /// Where a run can begin, and what can be decided about it. A control at the end of a line gets the
 /// rest of the text; one of a gateway looks through the program, as far as it can.
 void write_starts(Writer& out, const machines::MachineView& view) {
-  static const library::StartSearch kOfALine{.at = {"block", "line", "byte"}};
+  static const library::StartSearch kOfALine{.at = {"block", "line", "byte", "tool"}};
   const bool has_line = view.has_serial_line();
   const auto& search = has_line ? kOfALine : library::start_search_of(view.machine.control);
   out.begin('{');

@@ -51,13 +51,13 @@ struct MachineView {
 };
 
 /// Where a run begins when it does not begin at the program's first byte. At most one is given.
-/// Over a serial line `tool` and `skipped` are Unsupported. A gateway executes the program
+/// Over a serial line `skipped` is Unsupported. A gateway executes the program
 /// without motion up to there; a control whose interpreter cannot do that refuses.
 struct StartPoint {
   std::optional<std::uint64_t> byte;      ///< offset; the rest of its block is sent first
   std::optional<std::uint64_t> line;      ///< 1-based
   std::optional<std::uint64_t> sequence;  ///< the first block with this N number
-  std::optional<std::uint64_t> tool;      ///< the first block with this tool
+  std::optional<std::uint64_t> tool;      ///< the first block that changes to this tool
   std::optional<std::uint64_t> skipped;   ///< after so many blocks
   /// Which pass, from 1, where the program reaches that block more than once. A gateway's control
   /// asks for it; over a serial line Unsupported.

@@ -21,8 +21,8 @@ class LineRuns {
   /// run).
   Result<storage::Run> create(const machines::StartRequest& request,
                               const storage::Machine& machine);
-  /// What is to be sent for it. Reads the program up to there. Errors: NotFound (no such line, byte
-  /// or N number), Conflict (the rest relies on words before it), Corrupt.
+  /// What is to be sent for it. Reads the program up to there. Errors: NotFound (no such line,
+  /// byte, N number or tool), Conflict (the rest relies on words before it), Corrupt.
   Result<SendJob> job(const storage::Run& run, const machines::StartRequest& request);
 
   void started(const storage::Run& run, LineRecords& records);

@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint64_t kPiece = 32 * 1024;
 constexpr int kPiecesAtOnce = 32;
 
-/// "N120", "L7" or "B4096".
+/// "N120", "L7", "B4096" or "T3".
 Result<line::WantedPlace> parse_place(std::string_view text) {
   line::WantedPlace wanted;
   if (text.empty()) return wanted;
@@ -17,7 +17,7 @@ Result<line::WantedPlace> parse_place(std::string_view text) {
   const char* end = text.data() + text.size();
   const auto read = std::from_chars(text.data() + 1, end, number);
   if (read.ec != std::errc{} || read.ptr != end)
-    return fail(Errc::Syntax, "a start at '{}': expected N120, L7 or B4096", text);
+    return fail(Errc::Syntax, "a start at '{}': expected N120, L7, B4096 or T3", text);
   switch (text.front()) {
     case 'N':
       wanted.sequence = number;
@@ -28,9 +28,12 @@ Result<line::WantedPlace> parse_place(std::string_view text) {
     case 'B':
       wanted.byte = number;
       return wanted;
+    case 'T':
+      wanted.tool = number;
+      return wanted;
     default:
       return fail(Errc::Unsupported,
-                  "over a serial line a run begins at a block, a line or a byte");
+                  "over a serial line a run begins at a block, a line, a byte or a tool");
   }
 }
 

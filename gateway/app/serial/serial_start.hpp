@@ -34,7 +34,10 @@ class SerialStart {
 
  private:
   SerialStart(const line::WantedPlace& wanted, line::HeadChoice choice, Program program)
-      : wanted_(wanted), choice_(choice), program_(std::move(program)), finder_(wanted) {
+      : wanted_(wanted),
+        choice_(choice),
+        program_(std::move(program)),
+        finder_(wanted, program_.control) {
     if (wanted.is_beginning()) state_ = State::Ready;
   }
   bool take(std::string_view piece);

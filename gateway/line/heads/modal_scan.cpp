@@ -56,30 +56,6 @@ ModalScan::ModalScan(std::string_view control)
       is_rs274ngc_(control == "rs274ngc"),
       is_tektronix_(control == "tektronix-1704") {}
 
-/// Words at depth 0: a letter and everything up to the next one. Comments are left out.
-ModalScan::Block ModalScan::read(std::string_view text) {
-  Block block;
-  int depth = 0;
-  bool is_comment = false;
-  for (const char c : text) {
-    if (is_comment) {
-      is_comment = c != ')';
-    } else if (c == '(') {
-      is_comment = true;
-    } else if (c == ';') {
-      break;
-    } else if (depth == 0 && is_letter(c)) {
-      block.push_back({upper(c), {}, true});
-    } else if (c != ' ' && c != '\t' && c != '\r' && !block.empty()) {
-      if (c == '[') ++depth;
-      if (c == ']') --depth;
-      block.back().value += upper(c);
-      block.back().is_number = block.back().is_number && is_of_number(c);
-    }
-  }
-  return block;
-}
-
 /// Codes whose meaning other words of the block decide: G50 and G92 with axes are a coordinate
 /// system that begins where the machine is, with S alone a limit of the spindle; G5 and G8 of a
 /// Fanuc are look-ahead, G5 of LinuxCNC moves.
@@ -151,7 +127,7 @@ void ModalScan::name_unknown(std::string_view text) {
 void ModalScan::skip(std::string_view text) {
   ++line_;
   if (text_.kind == FormKind::PlainLanguage) return skip_plain_language(text);
-  const Block block = read(text);
+  const Block block = scan_block(text);
   if (text_.kind == FormKind::Events) return skip_event(text, block);
   bool is_computed = false;
   for (const Word& word : block) {
@@ -249,7 +225,7 @@ void ModalScan::skip_tool(const Block& block) {
 bool ModalScan::look(std::string_view text) {
   if (text_.kind == FormKind::PlainLanguage || in_force_.empty() || ++looked_ > kMaxLooked)
     return false;
-  const Block block = read(text);
+  const Block block = scan_block(text);
   if (text_.kind == FormKind::Events) return look_event(block);
   for (const Word& word : block) look_word(word, block);
   const bool changes = std::ranges::any_of(
@@ -262,7 +238,7 @@ bool ModalScan::look(std::string_view text) {
     return std::string_view("XYZABCUVWIJKR").find(word.letter) != std::string_view::npos;
   });
   if (has_axes || (changes && in_force_.contains(ModalGroup::NextTool)))
-    decide(is_feed_move(block));
+    decide(has_axes && is_feed_move(block));
   return !in_force_.empty();
 }
 

@@ -9,6 +9,7 @@
 
 #include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/line/heads/modal_codes.hpp"
+#include "gateway/line/heads/scan_block.hpp"
 
 namespace dripline::line {
 
@@ -42,15 +43,9 @@ class ModalScan {
   std::vector<ModalWord> relied_on() const;
 
  private:
-  struct Word {
-    char letter = 0;
-    std::string value;
-    bool is_number = false;
-    std::string text() const { return letter + value; }
-  };
-  using Block = std::vector<Word>;
+  using Word = ScannedWord;
+  using Block = ScannedBlock;
 
-  Block read(std::string_view text);
   std::optional<ModalCode> code_of(const Word& word, const Block& block) const;
   bool is_known_one_shot(int code) const;
   bool can_be_sent(const ModalCode& row, const Block& block) const;

@@ -8,13 +8,20 @@ namespace dripline::line {
 namespace {
 
 constexpr std::size_t kBlockHead = 24;
+constexpr std::size_t kMaxBlock = 4096;  ///< the rest of a longer block is not searched
 
 }  // namespace
 
 std::string to_text(const WantedPlace& wanted) {
   if (wanted.byte) return fmt::format("byte {}", *wanted.byte);
   if (wanted.line) return fmt::format("line {}", *wanted.line);
+  if (wanted.tool) return fmt::format("change to tool {}", *wanted.tool);
   return fmt::format("block N{}", wanted.sequence.value_or(0));
+}
+
+PlaceFinder::PlaceFinder(const WantedPlace& wanted, std::string_view control)
+    : wanted_(wanted), kept_(wanted.tool ? kMaxBlock : kBlockHead) {
+  if (wanted.tool) tools_.emplace(control, *wanted.tool);
 }
 
 bool PlaceFinder::look(std::string_view piece) {
@@ -35,7 +42,7 @@ bool PlaceFinder::look(char c) {
     return true;
   }
   if (c != '\n') {
-    if (head_.size() < kBlockHead) head_ += c;
+    if (head_.size() < kept_) head_ += c;
     ++at_;
     return false;
   }
@@ -48,6 +55,7 @@ bool PlaceFinder::end_block() {
   if (wanted_.sequence && sequence_number(head_) == static_cast<std::int64_t>(*wanted_.sequence)) {
     return true;
   }
+  if (tools_ && tools_->is_change(head_)) return true;
   place_.byte += at_ + 1;
   ++place_.line;
   at_ = 0;

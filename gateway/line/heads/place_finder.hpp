@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/line/heads/tool_finder.hpp"
+
 namespace dripline::line {
 
 /// A place in a program.
@@ -18,15 +20,17 @@ struct WantedPlace {
   std::optional<std::uint64_t> byte = std::nullopt;
   std::optional<std::uint64_t> line = std::nullopt;      ///< 1-based
   std::optional<std::uint64_t> sequence = std::nullopt;  ///< the first block with this N number
-  bool is_beginning() const { return !byte && !line && !sequence; }
+  std::optional<std::uint64_t> tool = std::nullopt;      ///< the first block that changes to it
+  bool is_beginning() const { return !byte && !line && !sequence && !tool; }
 };
-/// "byte 4096", "line 7", "block N120".
+/// "byte 4096", "line 7", "block N120", "change to tool 3".
 std::string to_text(const WantedPlace& wanted);
 
 /// Finds a place in a program's text while it arrives, piece by piece, in bounded memory. Pure.
 class PlaceFinder {
  public:
-  explicit PlaceFinder(const WantedPlace& wanted) : wanted_(wanted) {}
+  /// `control`: the machine's dialect, which decides what changes a tool.
+  PlaceFinder(const WantedPlace& wanted, std::string_view control);
 
   /// True: it is in this piece, and `place` has it; no more text is needed.
   bool look(std::string_view piece);
@@ -39,6 +43,8 @@ class PlaceFinder {
   bool end_block();
 
   const WantedPlace wanted_;
+  const std::size_t kept_;  ///< of each block
+  std::optional<ToolFinder> tools_;
   ProgramPlace place_;  ///< where the block begins
   std::uint64_t at_ = 0;
   std::string head_;

@@ -31,12 +31,13 @@ line::HeadChoice to_choice(machines::StartHead choice) {
 
 Result<line::ProgramPlace> find_start(storage::ProgramStore& store, const storage::Run& run,
                                       const machines::StartPoint& from) {
-  if (from.tool || from.skipped) {
-    return fail(Errc::Unsupported, "over a serial line a run begins at a block, a line or a byte");
+  if (from.skipped) {
+    return fail(Errc::Unsupported,
+                "over a serial line a run begins at a block, a line, a byte or a tool");
   }
-  const line::WantedPlace wanted{from.byte, from.line, from.sequence};
+  const line::WantedPlace wanted{from.byte, from.line, from.sequence, from.tool};
   if (wanted.is_beginning()) return line::ProgramPlace{};
-  line::PlaceFinder finder(wanted);
+  line::PlaceFinder finder(wanted, run.control);
   bool is_found = false;
   const auto read = read_program(
       store, run, [&](std::string_view piece) { return is_found = finder.look(piece); });

@@ -7,8 +7,8 @@
 namespace dripline::ports {
 
 /// Finds where a run is to begin: reads stored content piece by piece, in bounded memory. Errors:
-/// NotFound (the program has no such byte, line or N number), Unsupported (a place that only a
-/// gateway finds), Corrupt, Io.
+/// NotFound (the program has no such byte, line, N number or tool), Unsupported (a place that only
+/// a gateway finds), Corrupt, Io.
 Result<line::ProgramPlace> find_start(storage::ProgramStore& store, const storage::Run& run,
                                       const machines::StartPoint& from);
 

@@ -157,10 +157,10 @@ void add_start(Command group, Context& context) {
   command.add_option("PROGRAM", options->request.program, "The program in the library").required();
   command.add_option("--revision", options->request.revision,
                      "Revision to start (default: the latest)");
-  command.add_option(
-      "--from", options->request.from,
-      "Begin at a block (N120), a line (L7), a byte (B4096), a tool (T3) or after blocks "
-      "(+25)");
+  command.add_option("--from", options->request.from,
+                     "Begin at a block (N120), a line (L7), a byte (B4096), the first change to a "
+                     "tool (T3) or, at "
+                     "a gateway, after blocks (+25)");
   auto send = command.add_flag_callback(
       "--send-head", [options] { options->request.head = "send"; },
       "On a serial line: before the start block, send the modal words (units, feed, tool ...) that "

@@ -8,7 +8,7 @@ namespace {
 const std::string kProgram = "O1\nG21 G90\nT2 M6\nN10 G0 X1.\nN20 G1 X2. F100\nM30";
 
 ProgramPlace find(const WantedPlace& wanted, std::size_t step = 1000) {
-  PlaceFinder finder(wanted);
+  PlaceFinder finder(wanted, "fanuc");
   for (std::size_t at = 0; at < kProgram.size(); at += step) {
     if (finder.look(std::string_view(kProgram).substr(at, step))) return finder.place();
   }

@@ -247,6 +247,38 @@ TEST_F(PortServiceTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
   EXPECT_EQ(line().read_until("M30\n"), "N6 Y2.\nM30\n");
 }
 
+TEST_F(PortServiceTest, BeginsAtTheChangeToATool) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  add_port(mill());
+  push("O1",
+       "O1\nG21 G90 G17 G54\nT2 M6\nS1000 M3\nM8\nG0 X0 Y0\nG1 X1. F200\nN3 T3 M6\nS800 M3\nG0 "
+       "X5.\nG1 Y2. F90\nM30\n",
+       "fanuc");
+  machines::StartRequest request{
+      .machine = "mill", .program = "O1", .revision = {}, .author = "cam", .from = {}};
+  request.from.tool = 3;
+  const auto asked = ports_->machines().start(request);
+  ASSERT_FALSE(asked);
+  EXPECT_EQ(asked.error().code, Errc::Conflict);
+  EXPECT_NE(asked.error().what.find("line 8 and what follows rely on G21 (line 2)"),
+            std::string::npos)
+      << asked.error().what;
+  request.head = machines::StartHead::Send;
+  const auto sent = ports_->machines().start(request);
+  ASSERT_TRUE(sent) << sent.error().what;
+  EXPECT_EQ(line().read_until("M30\n"),
+            "G21 G17 G90 G54\nM8\nN3 T3 M6\nS800 M3\nG0 X5.\nG1 Y2. F90\nM30\n");
+  ASSERT_TRUE(wait_state(sent->id, RunState::Completed));
+  request.from.tool = 4;
+  const auto nowhere = ports_->machines().start(request);
+  EXPECT_EQ(nowhere.error().code, Errc::NotFound);
+  EXPECT_NE(nowhere.error().what.find("'O1' has no change to tool 4"), std::string::npos);
+  request.from = {};
+  request.from.skipped = 4;
+  EXPECT_EQ(ports_->machines().start(request).error().code, Errc::Unsupported);
+}
+
 TEST_F(PortServiceTest, RefusesASecondRunAndAHeldRevision) {
   start_ports();
   add_port(mill());
