@@ -50,12 +50,17 @@ std::string Approach::height_fault() const {
     now += fmt::format(" {}{:.3f}", interpreter::letter(axis), from.raw(axis));
     place += fmt::format(" {}{:.3f}", interpreter::letter(axis), to.raw(axis));
   }
+  const char up = interpreter::letter(tool_axis);
+  const std::string down =
+      to.has(tool_axis) ? fmt::format(": it moves to {}{:.3f} there", up, to.raw(tool_axis)) : "";
   return fmt::format(
       "the axes are at{}, and no height is known to be clear for a move from there to{}, where the "
-      "program continues: at none above its cuts has it led across in rapid, or retracted to one. "
-      "Bring the axes to{} by hand or by MDI, clear of the part, and restart again (machine "
-      "coordinates), or restart at another block",
-      now, place, place);
+      "program continues: it has neither led across in rapid nor retracted above its cuts, and "
+      "where "
+      "it was fed across it may have cut. Bring the axes to{} by hand or by MDI (machine "
+      "coordinates), along {} out of the part first, and restart again{}; or restart at another "
+      "block",
+      now, place, place, up, down);
 }
 
 /// Between the place and the end of the straight move that follows it: a run that is cut off stops

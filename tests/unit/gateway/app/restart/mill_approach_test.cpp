@@ -95,6 +95,11 @@ INSTANTIATE_TEST_SUITE_P(
                 2,
                 {feed(xyz(0, 0, -3)), rapid(xyz(0, 0, -2)), feed(xyz(0, 0, -6))},
                 false},
+        RunCase{"none_of_a_clearance_that_was_fed_to_and_across",
+                0,
+                {feed(xyz(0, 0, 5)), feed(xyz(9, 0, 5)), feed(xyz(9, 0, -5)), feed(xyz(20, 0, -5)),
+                 feed(xyz(20, 0, 5)), feed(xyz(0, 0, 5))},
+                false},
         RunCase{"none_of_a_table_that_turns",
                 -5,
                 {feed(xyz(9, 0, -5)), rapid([] {
@@ -116,7 +121,10 @@ Approach unclear() {
 TEST(MillApproach, IsLeftToTheOperatorWhereNoHeightIsClear) {
   const auto plan = unclear().plan();
   EXPECT_THAT(plan.fault, HasSubstr("the axes are at X10.000, and no height is known to be clear"));
-  EXPECT_THAT(plan.fault, HasSubstr("Bring the axes to X30.000 by hand or by MDI"));
+  EXPECT_THAT(plan.fault, HasSubstr("where it was fed across it may have cut"));
+  EXPECT_THAT(plan.fault, HasSubstr("Bring the axes to X30.000 by hand or by MDI (machine "
+                                    "coordinates), along Z out of the part first, and restart "
+                                    "again: it moves to Z-5.000 there"));
   EXPECT_TRUE(plan.before.empty());
   EXPECT_TRUE(plan.after.empty());
 }
