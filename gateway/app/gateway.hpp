@@ -83,7 +83,9 @@ class Gateway final : public MachineGateway {
   Reply start(const dds::Command& command);
   Reply operate(const dds::Command& command);
   Reply set_position(const dds::Command& command);
+  std::optional<Reply> refusal_of_jog(const dds::Command& command) const;
   std::optional<Reply> begin_jog(const dds::Command& command);
+  void keep_jog(const dds::Command& command, const std::string& hold);
   bool stop_jog(std::string_view why);
   void serve_stops();
   bool stop_homing(std::string_view why);

@@ -112,43 +112,9 @@ void Gateway::keep_answer(const std::string& command, const Reply& reply) {
     process::log_error("command {} not kept: {} {}", command, done.error().what, run_.label());
 }
 
-void Gateway::on_jog(const dds::Command& command) {
-  const auto refusal = begin_jog(command);
-  process::log_info("command {} jog {} {}{} {}", command.id, command.argument,
-                    refusal ? "refused: " : "begun", refusal ? refusal->reason : "", run_.label());
-  if (refusal) give_answer(command.id, *refusal);
-  server_.want_status();
-}
-
 void Gateway::give_answer(const std::string& command, const Reply& reply) {
   keep_answer(command, reply);
   commands_.answer(command, reply);
-}
-
-/// Not one for another gateway, nor a late one, whose sender does not expect the move any more.
-std::optional<Reply> Gateway::begin_jog(const dds::Command& command) {
-  if (auto refusal = validity_.refusal(command, parts_.clock.steady_now()))
-    return refuse(*std::move(refusal));
-  if (auto refusal = panel_.refusal_without_consent(command)) return refusal;
-  if (auto refusal = refusal_of_fault()) return refusal;
-  if (!jogger_.is_active()) loop_.begin_jog();
-  return jogger_.begin(command);
-}
-
-/// False: nothing is jogged.
-bool Gateway::stop_jog(std::string_view why) {
-  if (!jogger_.is_active()) return false;
-  jogger_.stop(why);
-  return true;
-}
-
-void Gateway::answer_jog() {
-  const auto answer = jogger_.take_answer();
-  if (!answer) return;
-  loop_.end_jog(answer->reply.is_accepted);
-  process::log_info("jog {} ended: {} {}", answer->command, answer->reply.reason, run_.label());
-  give_answer(answer->command, answer->reply);
-  server_.want_status();
 }
 
 Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {

@@ -14,6 +14,8 @@ using interpreter::JogMove;
 
 namespace {
 
+constexpr double kReached = 0.01;  ///< mm or degrees: a device moves by whole steps
+
 SteadyTime::duration steady_seconds(double count) {
   return std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(count));
 }
@@ -105,22 +107,58 @@ Result<void> Jogger::begin_step(const dds::Command& command) {
       .feed_per_minute = move->canonical_feed().value_or(parts_.options.jog_feed),
       .display = display(*move)};
   const double from = parts_.machine.status().position.raw(move->axis);
-  if (auto begun = parts_.machine.jog(jog); !begun) return begun;
   const SteadyTime now = parts_.clock.steady_now();
   const double factor = parts_.options.speed.factor.value_or(1);
   const double takes = std::fabs(distance) / jog.feed_per_minute * 60 / std::min(factor, 1.0);
-  step_ = Step{.command = command.id,
+  Step step = {.command = command.id,
                .asked = *move,
+               .jog = jog,
                .from = from,
                .distance = distance,
+               .given = 0,
                .last = now,
                .limit = now + steady_seconds(std::max(takes, kLongest)) + kLate,
+               .held_until = now + kHeld,
                .why_stopped = {}};
+  if (auto begun = give_piece(step); !begun) return begun;
+  step_ = std::move(step);
   return {};
+}
+
+/// A step is one; so is a held jog of axes that stop with this process.
+Result<void> Jogger::give_piece(Step& step) {
+  constexpr double kSmallest = 0.05;  // mm or degrees: some steps of a device
+  machine::Jog piece = step.jog;
+  piece.distance = step.distance - step.given;
+  if (!step.asked.hold.empty() && !parts_.machine.capabilities().simulated_time) {
+    const double held = std::chrono::duration<double>(kHeld).count() * piece.feed_per_minute / 60;
+    const double size = std::max(held, kSmallest);
+    if (std::fabs(piece.distance) > size) piece.distance = std::copysign(size, piece.distance);
+  }
+  if (auto begun = parts_.machine.jog(piece); !begun) return begun;
+  step.given += piece.distance;
+  return {};
+}
+
+/// Only from where the last one was to end, at rest.
+bool Jogger::has_next_piece() {
+  constexpr double kNothing = 1e-9;
+  if (std::fabs(step_->distance - step_->given) <= kNothing) return false;
+  if (!step_->why_stopped.empty() || !parts_.machine.jog_fault().empty()) return false;
+  const double moved = parts_.machine.status().position.raw(step_->asked.axis) - step_->from;
+  if (std::fabs(moved - step_->given) > kReached) return false;
+  const auto given = give_piece(*step_);
+  const machine::OperatorPanel& panel = parts_.machine.panel();
+  const bool may_move = !panel.emergency_stop && panel.feed_override != 0;
+  // A device shows the end of the last one a moment later than its axes rest.
+  if (!given && given.error().code == Errc::Busy && may_move) return true;
+  if (!given) step_->why_stopped = "since " + given.error().what;
+  return given.has_value();
 }
 
 void Jogger::step(SteadyTime now) {
   if (!step_) return;
+  if (!step_->asked.hold.empty() && now > step_->held_until) stop("since it was no longer held");
   if (parts_.machine.capabilities().simulated_time) {
     const auto elapsed =
         std::clamp<SteadyTime::duration>(now - step_->last, {}, RunLoop::kLongestStep);
@@ -131,10 +169,19 @@ void Jogger::step(SteadyTime now) {
                                 : std::numeric_limits<double>::infinity()},
         machine::MotionBackend::kNoLimit);
   }
-  if (!parts_.machine.is_jogging()) return answer(ended());
+  if (!parts_.machine.is_jogging() && !has_next_piece()) return answer(ended());
   if (now > step_->limit + kLate)
     return answer(refuse("the axis does not come to rest: look at the machine"));
   if (now > step_->limit) stop("because its time was over");
+}
+
+Reply Jogger::keep(std::string_view hold) {
+  if (!step_ || step_->asked.hold != hold) return refuse("no jog is held by that word");
+  if (!step_->why_stopped.empty()) return refuse("the jog stops " + step_->why_stopped);
+  const SteadyTime now = parts_.clock.steady_now();
+  if (now > step_->held_until) return refuse("the jog was not kept in time");
+  step_->held_until = now + kHeld;
+  return {};
 }
 
 void Jogger::stop(std::string_view why) {
@@ -157,7 +204,6 @@ std::string Jogger::why_stopped() const {
 
 /// Where the axis is now; a step that was stopped is done as far as it has come.
 Reply Jogger::ended() const {
-  constexpr double kReached = 0.01;  // mm or degrees: a device moves by whole steps
   const JogMove& move = step_->asked;
   const double at = parts_.machine.status().position.raw(move.axis);
   const double moved = at - step_->from;

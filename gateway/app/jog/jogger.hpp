@@ -13,7 +13,9 @@ namespace dripline::gateway {
 
 /// Moves one axis by one finite step on an operator's command, while no program runs; one step at a
 /// time. It never continues or repeats one: whatever becomes of the link, the server or this
-/// process, a step ends by itself, and the next needs a command of its own. One thread.
+/// process, a step ends by itself, and the next needs a command of its own. A held jog is such a
+/// step that stops, wherever it is, when it is not kept for kHeld. A device, which would finish
+/// what it has without this process, has it in pieces of kHeld. One thread.
 class Jogger {
  public:
   struct Parts {
@@ -35,6 +37,8 @@ class Jogger {
   std::optional<Reply> begin(const dds::Command& command);
   /// Lets it move, and ends what takes too long.
   void step(SteadyTime now);
+  /// A held jog is still wanted. Never begins one, nor continues one that stops.
+  Reply keep(std::string_view hold);
   /// Slows down and drops the rest; `why` is in the answer.
   void stop(std::string_view why);
   bool is_active() const { return step_.has_value(); }
@@ -55,13 +59,18 @@ class Jogger {
   /// An axis may be slower than the feed: so long after kLongest the step is stopped, and then
   /// given up.
   static constexpr std::chrono::seconds kLate{2};
+  /// How long a held jog moves without being kept.
+  static constexpr std::chrono::milliseconds kHeld{300};
 
  private:
   struct Step {
     std::string command;
     interpreter::JogMove asked;
+    machine::Jog jog;               ///< all of it
     double from = 0, distance = 0;  ///< of the axis, mm or degrees
+    double given = 0;               ///< of the distance, to the machine
     SteadyTime last, limit;
+    SteadyTime held_until;  ///< of a held jog
     std::string why_stopped;
   };
   std::string refusal() const;
@@ -69,6 +78,8 @@ class Jogger {
   Result<void> check_size(const interpreter::JogMove& move) const;
   bool is_diameter(interpreter::Axis axis) const;
   interpreter::LengthDisplay display(const interpreter::JogMove& move) const;
+  Result<void> give_piece(Step& step);
+  bool has_next_piece();
   std::string why_stopped() const;
   Reply ended() const;
   void answer(Reply reply);

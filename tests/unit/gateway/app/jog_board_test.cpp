@@ -97,6 +97,44 @@ TEST_F(JoggedBoard, ItsRunIsLeftToCycleStartAfterADoorWasOpened) {
   EXPECT_TRUE(shop->run_until([&] { return board->position()[0] > rests + 1; }));
 }
 
+TEST_F(JoggedBoard, AHeldJogReachesItsDistance) {
+  start(interpreter::kFanucDialect);
+  const auto command = shop->begin("X 12 mm F600 hold=a1");
+  EXPECT_TRUE(shop->run_until([&] {
+    (void)shop->jog("keep=a1");
+    return shop->results.count(command.id) > 0;
+  }));
+  EXPECT_EQ(shop->end_of(command), "X 12 mm");
+  EXPECT_NEAR(board->position()[0], 12, 1e-3);
+  EXPECT_EQ(board->jogs.size(), 4U) << "in pieces of 3 mm";
+}
+
+TEST_F(JoggedBoard, AHeldJogStopsWhenItIsNotKept) {
+  start(interpreter::kFanucDialect);
+  const auto command = shop->begin("X 60 mm F600 hold=a1");
+  for (int i = 0; i < 10; ++i) {
+    shop->pass(100ms);
+    EXPECT_EQ(shop->jog("keep=a1"), "");
+  }
+  const double at = board->position()[0];
+  EXPECT_GT(at, 4);
+  EXPECT_THAT(shop->end_of(command), HasSubstr("stopped since it was no longer held"));
+  EXPECT_LT(board->position()[0] - at, 5);
+}
+
+/// However long it would be kept: the board has a piece, and nothing more comes.
+TEST_F(JoggedBoard, AHeldJogWhoseLineIsLostStops) {
+  start(interpreter::kFanucDialect);
+  const auto command = shop->begin("X 60 mm F600 hold=a1");
+  shop->pass(200ms);
+  ASSERT_EQ(shop->jog("keep=a1"), "");
+  is_cut = true;
+  machine->line_lost("the line is closed");
+  EXPECT_THAT(shop->end_of(command), StartsWith("refused: "));
+  shop->pass(5s);
+  EXPECT_LE(board->position()[0], 3.001);
+}
+
 TEST_F(JoggedBoard, AStepWhoseLineIsLostEndsByItselfAndIsNotRepeated) {
   start(interpreter::kFanucDialect);
   const auto command = shop->begin("X 5 mm F600");
