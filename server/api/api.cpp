@@ -54,6 +54,7 @@ Api::Api(Services services)
   add_job_routes(router_, services_);
   add_upload_routes(router_, services_);
   add_machine_routes(router_, services_);
+  add_jog_routes(router_, services_);
   add_run_routes(router_, services_);
   add_report_routes(router_, services_);
   add_setup_routes(router_, services_);

@@ -97,6 +97,7 @@ constexpr std::array kRoutes{
     RoutePermission{"POST", "/api/v1/machines/{name}/datum", Operate, Name},
     RoutePermission{"POST", "/api/v1/machines/{name}/touch-off", Operate, Name},
     RoutePermission{"POST", "/api/v1/machines/{name}/jog", Operate, Name},
+    RoutePermission{"POST", "/api/v1/machines/{name}/jog/hold", Operate, Name},
     RoutePermission{"GET", "/api/v1/machines/{name}/playback", View},
     RoutePermission{"GET", "/api/v1/machines/{name}/jobs", View},
     RoutePermission{"POST", "/api/v1/machines/{name}/jobs", Operate, Name},

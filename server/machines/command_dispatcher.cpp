@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "gateway/interpreter/core/jog_move.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/dds/endpoint.hpp"
 #include "server/machines/identifiers.hpp"
@@ -28,6 +29,10 @@ bool may_stop(const dds::Command& command) {
 
 bool is_jog(const dds::Command& command) {
   return command.action == dds::CommandAction::Jog;
+}
+
+bool keeps_jog(const dds::Command& command) {
+  return is_jog(command) && interpreter::parse_jog_keep(command.argument);
 }
 
 bool is_question(const dds::Command& command) {
@@ -62,6 +67,7 @@ CommandDispatcher::CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock&
       on_late_start_(std::move(on_late_start)) {}
 
 std::chrono::milliseconds CommandDispatcher::life_of(const dds::Command& command) const {
+  if (keeps_jog(command)) return options_.keep_expiry;
   return is_jog(command) ? options_.jog_expiry : options_.expiry;
 }
 
@@ -88,7 +94,7 @@ Result<void> CommandDispatcher::take_turn(dds::Command& command, const Origin& o
   const SteadyTime given = origin.given.value_or(now);
   const bool is_start = command.action == dds::CommandAction::Start;  // has its own limit
   if (!origin.is_stop && !is_start) {
-    const auto limit = is_jog(command) ? options_.jog_expiry : StopOrder::kMaxWait;
+    const auto limit = is_jog(command) ? life_of(command) : StopOrder::kMaxWait;
     if (auto soon = check_age(command.machine, command.action, given, now, limit); !soon)
       return soon;
   }
@@ -188,7 +194,8 @@ Result<void> CommandDispatcher::write_in_time(const dds::Command& command, const
 Result<dds::CommandResult> CommandDispatcher::await(const std::string& id) {
   std::unique_lock lock(mutex_);
   const Waiting& waiting = waiting_.at(id);
-  const auto wait = is_jog(waiting.command) ? options_.jog_end : options_.expiry;
+  const bool is_awaited_to_its_end = is_jog(waiting.command) && !keeps_jog(waiting.command);
+  const auto wait = is_awaited_to_its_end ? options_.jog_end : life_of(waiting.command);
   const auto expiry = std::chrono::steady_clock::now() + wait;
   const auto limit = expiry + options_.grace;
   const auto is_resolved = [&] { return waiting.result.has_value() || is_stopping_; };

@@ -27,6 +27,8 @@ class CommandDispatcher {
     /// Of a jog, which moves an axis: it is begun at once or never, and answered at its end. The
     /// longest that a gateway takes has to end within the second.
     std::chrono::milliseconds jog_expiry{2000}, jog_end{17'000};
+    /// Of what keeps a held jog moving: a late one must not.
+    std::chrono::milliseconds keep_expiry{250};
     /// A command without an answer is sent again, with the same id: the first may have been lost
     /// with a connection. One that stops, or asks, goes to the gateway present then; all others
     /// only to the one that they were given to, and are answered with Timeout when it was replaced.

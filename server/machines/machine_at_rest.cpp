@@ -1,6 +1,7 @@
 // What is asked of a machine besides runs, and what an operator does with its axes at rest.
 #include <utility>
 
+#include "gateway/interpreter/core/jog_move.hpp"
 #include "protocol/process/log.hpp"
 #include "server/machines/machine_service.hpp"
 
@@ -113,7 +114,8 @@ Result<JogAnswer> MachineService::jog(const JogRequest& request) {
   auto command = command_at_rest(request.machine, dds::CommandAction::Jog);
   if (!command) return fail(command.error());
   command->argument = request.move;
-  process::log_info("command jog machine={} {}", request.machine, request.move);
+  if (!interpreter::parse_jog_keep(request.move))
+    process::log_info("command jog machine={} {}", request.machine, request.move);
   auto result = parts->commands.result_of(*std::move(command), {.given = request.given});
   if (!result) return fail(result.error());
   return JogAnswer{std::move(result->reason), std::move(result->values)};

@@ -148,7 +148,7 @@ struct PositionAnswer {
 /// One axis of a machine without a run by one step.
 struct JogRequest {
   std::string machine;
-  std::string move;                      ///< interpreter::to_text(JogMove)
+  std::string move;                      ///< interpreter::to_text(JogMove), or keep_text
   std::optional<SteadyTime> given = {};  ///< to the server; absent: now
 };
 struct JogAnswer {

@@ -276,6 +276,26 @@ Result<interpreter::PositionSetting> decode_position_setting(std::string_view bo
   return interpreter::parse_position_setting(interpreter::to_text(setting));
 }
 
+namespace {
+
+constexpr std::size_t kMaxHoldWord = 64;
+
+Result<void> check_hold_word(const std::string& word) {
+  if (interpreter::is_hold_word(word)) return {};
+  return fail(Errc::Syntax, "hold '{}': expected 1 to 64 letters, digits and '-'", word);
+}
+
+}  // namespace
+
+Result<std::string> decode_jog_keep(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  std::string word = object->required_text("hold", kMaxHoldWord);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_hold_word(word); !good) return fail(good.error());
+  return word;
+}
+
 Result<interpreter::JogMove> decode_jog(std::string_view body) {
   constexpr double kMaxValue = 1e6;
   auto object = JsonObject::parse(body);
@@ -284,7 +304,11 @@ Result<interpreter::JogMove> decode_jog(std::string_view body) {
   const auto distance = object->optional_number("distance");
   const auto unit = object->optional_text("unit", 3);
   const auto feed = object->optional_number("feed");
+  const auto hold = object->optional_text("hold", kMaxHoldWord);
   if (auto good = object->finish(); !good) return fail(good.error());
+  if (hold) {
+    if (auto good = check_hold_word(*hold); !good) return fail(good.error());
+  }
   const auto axis = read_axis(letter);
   if (!axis) return fail(axis.error());
   if (auto fits = check_unit(*axis, unit); !fits) return fail(fits.error());
@@ -300,7 +324,8 @@ Result<interpreter::JogMove> decode_jog(std::string_view body) {
       .axis = *axis,
       .distance = *distance,
       .units = unit == "in" ? interpreter::Units::Inch : interpreter::Units::Millimeter,
-      .feed = feed};
+      .feed = feed,
+      .hold = hold.value_or("")};
   return interpreter::parse_jog_move(interpreter::to_text(move));  // as its gateway reads it
 }
 

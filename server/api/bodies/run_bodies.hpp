@@ -45,6 +45,8 @@ Result<machines::CommandRequest> decode_machine_command(std::string_view body);
 Result<interpreter::PositionSetting> decode_position_setting(std::string_view body, bool is_tool);
 /// {"axis", "distance", "unit", "feed"?}; the unit of a rotary axis may be left out: deg.
 Result<interpreter::JogMove> decode_jog(std::string_view body);
+/// The word by which a jog is held.
+Result<std::string> decode_jog_keep(std::string_view body);
 inline constexpr double kMaxOverride = 10;
 inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one command
 

@@ -335,25 +335,6 @@ Response touch_off(Services& services, const Request& request) {
   return set_position(services, request, true);
 }
 
-/// The answer comes when the axis rests.
-Response jog(Services& services, const Request& request) {
-  const auto move = decode_jog(request.body);
-  if (!move) return error_response(move.error());
-  const std::string name = request.parameter("name");
-  if (const auto view = services.machines.machine(name); !view) return error_response(view.error());
-  const machines::JogRequest asked{name, interpreter::to_text(*move), request.given};
-  const auto answer = ask_audited(
-      services.audit,
-      {.who = request.who, .action = "machine.jog", .subject = name, .detail = asked.move},
-      [&] { return services.machines.jog(asked); });
-  if (!answer) return error_response(answer.error());
-  json view = json::parse(answer->details, nullptr, false);
-  if (!view.is_object()) view = json::object();
-  view["machine"] = name;
-  view["text"] = answer->text;
-  return json_response(200, view);
-}
-
 Response play_back(Services& services, const Request& request) {
   QueryReader query(request);
   machines::PositionRequest asked{.machine = request.parameter("name"),
@@ -391,7 +372,6 @@ void add_machine_routes(Router& router, Services& services) {
   router.add("POST", "/api/v1/machines/{name}/datum", with(services, set_datum), Waits::ForMachine);
   router.add("POST", "/api/v1/machines/{name}/touch-off", with(services, touch_off),
              Waits::ForMachine);
-  router.add("POST", "/api/v1/machines/{name}/jog", with(services, jog), Waits::ForMachine);
   router.add("GET", "/api/v1/machines/{name}/playback", with(services, play_back),
              Waits::ForMachine);
 }

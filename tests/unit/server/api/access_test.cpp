@@ -142,6 +142,7 @@ TEST_F(Access, ToAnotherGroupsMachineIsRefusedOnEveryRouteThatActsOnOne) {
       {"POST", "/api/v1/machines/lathe-1/mdi", R"({"text":"G0 X1"})"},
       {"POST", "/api/v1/machines/lathe-1/datum", R"({"axis":"Z","value":0,"offset":"G54"})"},
       {"POST", "/api/v1/machines/lathe-1/jog", R"({"axis":"Z","distance":1,"unit":"mm"})"},
+      {"POST", "/api/v1/machines/lathe-1/jog/hold", R"({"hold":"a1"})"},
       {"POST", "/api/v1/machines/lathe-1/touch-off",
        R"({"tool":3,"axis":"Z","value":0,"offset":"G54"})"},
       {"PUT", "/api/v1/machines/lathe-1/setup", "[[tool]]\nnumber = 1\n"},

@@ -26,6 +26,24 @@ TEST_F(Jog, IsOneStepOnRecordBeforeAndAfterIt) {
   EXPECT_EQ(machines_.jogs.back().move, "Z 0.01 in");
 }
 
+TEST_F(Jog, IsHeldByItsWordAndOnRecordOnce) {
+  (void)stored_run(0);
+  const Json held{{"axis", "X"}, {"distance", 50}, {"unit", "mm"}, {"hold", "3f-Aa"}};
+  ASSERT_EQ(post(kJog, held).status, 200);
+  EXPECT_EQ(machines_.jogs.back().move, "X 50 mm hold=3f-Aa");
+  const auto entries = json(get("/api/v1/audit"))["entries"].size();
+  const auto kept = post(kJog + "/hold", {{"hold", "3f-Aa"}});
+  ASSERT_EQ(kept.status, 200) << kept.body;
+  EXPECT_EQ(json(kept)["held"], true);
+  EXPECT_EQ(machines_.jogs.back().move, "keep=3f-Aa");
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"].size(), entries);
+  expect_error(post(kJog + "/hold", {{"hold", "a b"}}), 400, "syntax", "hold 'a b'");
+  expect_error(post(kJog + "/hold", Json::object()), 400, "syntax", "hold");
+  Json bad = held;
+  bad["hold"] = "";
+  expect_error(post(kJog, bad), 400, "syntax", "hold ''");
+}
+
 TEST_F(Jog, ThatIsNoStepGoesNowhere) {
   (void)stored_run(0);
   const auto refuse = [&](const Json& body, int status, const char* code, const char* what) {

@@ -320,6 +320,8 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
   expect_described("POST", "/api/v1/machines/{name}/jog",
                    post("/api/v1/machines/lathe-1/jog",
                         {{"axis", "X"}, {"distance", -1.5}, {"unit", "mm"}, {"feed", 300}}));
+  expect_described("POST", "/api/v1/machines/{name}/jog/hold",
+                   post("/api/v1/machines/lathe-1/jog/hold", {{"hold", "a1"}}));
   expect_described("POST", "/api/v1/machines/{name}/confirm-gateway",
                    call("POST", "/api/v1/machines/lathe-1/confirm-gateway"));
   expect_described("GET", "/api/v1/machines/{name}/playback",
