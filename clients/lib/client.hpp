@@ -174,6 +174,8 @@ class Client {
   Reply<PositionSet> set_position(std::string_view machine, const PositionToSet& setting);
   /// One step of an axis of a machine without a run; returns when the axis rests.
   Reply<JogDone> jog(std::string_view machine, const JogToMake& step);
+  /// Lets the jog that is held by this word move on for 300 ms.
+  Reply<void> keep_jog(std::string_view machine, std::string_view hold);
   /// The position of the axes of these letters as the words of a block.
   Reply<PlaybackBlock> play_back(std::string_view machine, std::string_view axes);
   Reply<std::vector<Run>> runs(const RunQuery& query);

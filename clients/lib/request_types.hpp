@@ -184,6 +184,7 @@ struct JogToMake {
   double distance = 0;
   std::string unit;                 ///< mm, in; deg or empty of a rotary axis
   std::optional<double> feed = {};  ///< per minute; none: the highest that the gateway takes
+  std::string hold;  ///< the word by which it is kept moving (`keep_jog`); empty: a step
 };
 
 /// The configuration of a port; saving replaces all of it.

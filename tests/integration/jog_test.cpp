@@ -74,6 +74,32 @@ TEST_F(JogSystem, IsTypedShownAndOnRecord) {
   EXPECT_EQ(details[2], "X -2.5 mm: X -2.5 mm");
 }
 
+/// Keys as a terminal repeats them, through a pipe.
+TEST_F(JogSystem, IsHeldByAKeyAndStopsWhenItsRepeatsEnd) {
+  begin();
+  const auto hold = [&](const std::string& keys) {
+    return test_support::run_to_end(
+        {"/bin/sh", "-c",
+         "(" + keys + ") | " + program_path("dnc") + " --server " + system->url() + " --state " +
+             system->server_state().string() +
+             " machine jog lathe-1 X 50 --unit mm --feed 300 --hold"},
+        system->folder() / "dnc.out");
+  };
+  const auto touched = hold("printf k");
+  EXPECT_EQ(touched.status, 1) << touched.output;
+  EXPECT_NE(touched.output.find("nothing has moved"), std::string::npos) << touched.output;
+  EXPECT_EQ(x(), 0);
+  const auto held = hold("for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14; do printf k; sleep 0.1; done");
+  EXPECT_EQ(held.status, 0) << held.output;
+  EXPECT_NE(held.output.find("stopped"), std::string::npos) << held.output;
+  EXPECT_TRUE(eventually([&] { return !is_moving(); }));
+  const double at = x();
+  EXPECT_GT(at, 0);
+  EXPECT_LT(at, 40) << "50 mm would take 10 s";
+  EXPECT_EQ(dnc("machine stop-jog lathe-1").status, 1) << "nothing is jogged";
+  EXPECT_EQ(x(), at);
+}
+
 TEST_F(JogSystem, OneOfManyAtOnceMovesAndAStopEndsIt) {
   begin();
   std::array<Reply, 4> replies;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "clients/cli/server/held_jog.hpp"
 #include "clients/cli/text/error_output.hpp"
 #include "clients/cli/text/standard_output.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 struct JogCommand {
   std::string machine;
   client::JogToMake step;
+  bool is_held = false;
 };
 
 bool is_rotary(const std::string& axis) {
@@ -45,6 +47,7 @@ int jog(Context& context, client::Client& client, const JogCommand& given) {
     if (!unit) return complain(unit.error());
     command.step.unit = *unit;
   }
+  if (command.is_held) return hold_jog(context, client, command.machine, command.step);
   const auto done = client.jog(command.machine, command.step);
   if (!done) return complain(done.error());
   context.print(context.wants_json ? json_text(*done)
@@ -80,6 +83,9 @@ void add_jog_verbs(Command group, Context& context) {
       .add_option("--feed", options->step.feed,
                   "Feed per minute; without it the highest that the gateway takes")
       .check(positive_number());
+  command.add_flag("--hold", options->is_held,
+                   "Move only while a key is held down (its repeats are read from the input), "
+                   "DISTANCE at most");
   add_json_flag(command, context);
   command.footer(
       "A click of a handwheel is such a step. It is refused while a run is active, another step "
@@ -91,7 +97,11 @@ void add_jog_verbs(Command group, Context& context) {
       "never, and is answered when the axis rests; a lost connection neither lengthens nor repeats "
       "it.\ndnc machine stop-jog, a hold, an abort, the emergency stop and a feed override of 0 "
       "stop "
-      "it. MDI after it begins with\nthe modes of power on, and without a tool.\n\nExample:\n  dnc "
+      "it. MDI after it begins with\nthe modes of power on, and without a tool.\n\nWith "
+      "--hold the axis begins to move with the second repeat of the key, and stops when no "
+      "repeat\nhas come for 250 ms; where dnc, the server or the network is lost, 300 ms after the "
+      "gateway has heard\nthe last. DISTANCE and --feed have the same limits as a "
+      "step's.\n\nExample:\n  dnc "
       "machine jog mill-1 X -0.1 --unit mm --feed 100");
   run_at_server(command, context, options, jog);
 

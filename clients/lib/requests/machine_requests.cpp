@@ -45,7 +45,13 @@ Reply<JogDone> Client::jog(std::string_view machine, const JogToMake& step) {
   Json body{{"axis", step.axis}, {"distance", step.distance}};
   if (!step.unit.empty()) body["unit"] = step.unit;
   if (step.feed) body["feed"] = *step.feed;
+  if (!step.hold.empty()) body["hold"] = step.hold;
   return fetch<JogDone>(with_method("POST", path_of("machines", machine) + "/jog"), dumped(body));
+}
+
+Reply<void> Client::keep_jog(std::string_view machine, std::string_view hold) {
+  return perform(with_method("POST", path_of("machines", machine) + "/jog/hold"),
+                 dumped({{"hold", hold}}));
 }
 
 Reply<PlaybackBlock> Client::play_back(std::string_view machine, std::string_view axes) {
