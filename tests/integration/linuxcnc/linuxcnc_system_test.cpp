@@ -1,4 +1,5 @@
 // Server, gateway and a real LinuxCNC.
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -179,6 +180,43 @@ TEST_F(LinuxCncSystem, AJogIsLinuxCncsOwnAndMdiGoesOnFromThere) {
   EXPECT_EQ(stopped.json()["reached"], false) << stopped.body;
   ASSERT_TRUE(eventually([&] { return linuxcnc->rests(); }));
   EXPECT_LT(x(), begun_at + 50);
+}
+
+/// In more pieces than one; how far it comes before a busy computer misses a keep is not certain.
+TEST_F(LinuxCncSystem, AHeldJogMovesWhileItIsKept) {
+  start("fanuc", {"--jog-step", "50", "--jog-feed", "3000"});
+  if (IsSkipped() || HasFatalFailure()) return;
+  system->push("end", "O1\nM30\n");
+  turn_on("end");
+  EXPECT_EQ(system->wait_ended(start_run("end")).value("state", ""), "completed");
+  const auto x = [&] { return linuxcnc->position()[0]; };
+  const double begun_at = x();
+  double longest = 0;
+  for (int i = 0; i < 10 && longest < 3.5; ++i) {
+    const double before = x();
+    const std::string word = "a" + std::to_string(i);
+    test_support::RestClient::Reply done;
+    std::atomic<bool> is_over = false;
+    std::thread mover([&] {
+      done = system->rest().post(
+          "/api/v1/machines/lathe-1/jog",
+          {{"axis", "X"}, {"distance", 20}, {"unit", "mm"}, {"feed", 600}, {"hold", word}});
+      is_over = true;
+    });
+    while (!is_over && x() < before + 8) {
+      (void)system->rest().post("/api/v1/machines/lathe-1/jog/hold", {{"hold", word}});
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    mover.join();
+    ASSERT_TRUE(eventually([&] { return linuxcnc->rests(); }));
+    longest = std::max(longest, x() - before);
+    EXPECT_LT(x() - before, 20) << done.body;
+  }
+  EXPECT_GT(longest, 3.5) << "more than the piece of 3 mm";
+  const double at = x();
+  EXPECT_GT(at, begun_at);
+  EXPECT_TRUE(linuxcnc->rests(std::chrono::seconds(1)));
+  EXPECT_EQ(x(), at);
 }
 
 TEST_F(LinuxCncSystem, AKilledGatewayLeavesNoMotionAndClaimsNothing) {
