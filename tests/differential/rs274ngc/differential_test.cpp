@@ -65,7 +65,7 @@ bool is_listed(const Behavior& ours, const Behavior& peer) {
 }
 
 /// The README's list: of arcs in a lathe cycle that are shorter than a thousandth the peer makes
-/// some, and we others.
+/// some, others as lines or not at all, and we others.
 bool is_tiny_arc_apart(const Behavior& ours, const Behavior& peer) {
   constexpr double kTiny = 1e-3 * 25.4;
   bool is_any = false;
@@ -73,11 +73,13 @@ bool is_tiny_arc_apart(const Behavior& ours, const Behavior& peer) {
     Behavior kept = behavior;
     kept.moves.clear();
     for (const Move& move : behavior.moves) {
-      const bool is_tiny = !kept.moves.empty() && move.kind == Move::Kind::Arc && move.plane == 1 &&
-                           std::hypot(move.to[0] - kept.moves.back().to[0],
-                                      move.to[2] - kept.moves.back().to[2]) <= kTiny;
+      const bool is_arc = move.kind == Move::Kind::Arc && move.plane == 1;
+      const bool is_tiny =
+          !kept.moves.empty() && (is_arc || move.kind == Move::Kind::Feed) &&
+          std::hypot(move.to[0] - kept.moves.back().to[0], move.to[1] - kept.moves.back().to[1],
+                     move.to[2] - kept.moves.back().to[2]) <= kTiny;
       if (!is_tiny) kept.moves.push_back(move);
-      is_any |= is_tiny;
+      is_any |= is_tiny && is_arc;
     }
     return kept;
   };
@@ -96,7 +98,7 @@ class Comparison {
   Comparison() { std::ofstream(folder_.path() / "tool.tbl") << tool_table(); }
 
   std::size_t listed() const { return listed_; }
-  /// Programs that the peer does not end.
+  /// Programs that the peer does not end, or crashes with.
   std::size_t hung() const { return hung_; }
 
   /// `next` gives the programs one after the other, an empty name at the end.

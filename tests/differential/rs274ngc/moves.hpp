@@ -20,7 +20,7 @@ bool is_near(const std::array<double, 6>& a, const std::array<double, 6>& b, dou
 /// What a program did, and whether it was taken to its end.
 struct Behavior {
   bool is_accepted = false;
-  bool is_hung = false;  ///< did not end in time
+  bool is_hung = false;  ///< did not end in time, or crashed
   std::string complaint;
   std::vector<Move> moves;
 };

@@ -18,7 +18,8 @@ namespace {
 constexpr const char* kPeer = "/usr/bin/rs274";
 /// Seconds; some contours of lathe cycles keep it busy for ever.
 constexpr int kTimeLimit = 20;
-constexpr int kTimedOut = 124;  ///< exit status of `timeout`
+constexpr int kTimedOut = 124;       ///< exit status of `timeout`
+constexpr int kEndedBySignal = 128;  ///< exit statuses above: by this signal
 constexpr std::size_t kMaxMoves = 200'000;
 constexpr double kInch = 25.4;
 
@@ -187,7 +188,9 @@ Behavior run_peer(const fs::path& program, const fs::path& tools) {
   }
   const int status = pclose(output);
   behavior.is_accepted = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  behavior.is_hung = WIFEXITED(status) && WEXITSTATUS(status) == kTimedOut;
+  // A shell reports a signal that ended its command as 128 and more.
+  behavior.is_hung = !WIFEXITED(status) || WEXITSTATUS(status) == kTimedOut ||
+                     WEXITSTATUS(status) > kEndedBySignal;
   behavior.moves = std::move(calls.moves);
   std::ifstream complaint(program.parent_path() / "complaint");
   while (std::getline(complaint, behavior.complaint) && behavior.complaint == "executing") {

@@ -50,7 +50,7 @@ std::vector<std::string> Maker::contour(Ticks along, Ticks depth) {
   };
   const std::uint64_t count = 2 + below(7);
   Ticks highest = depth;
-  bool has_corner = false, is_wall = false;
+  bool has_corner = false, has_fillet = false, is_wall = false;
   std::vector<int> headings;  // falls, level, rises
   for (std::uint64_t i = 0; i < count; ++i) {
     const int before = headings.empty() ? -1 : headings.back();
@@ -69,14 +69,17 @@ std::vector<std::string> Maker::contour(Ticks along, Ticks depth) {
       continue;
     }
     is_wall = heading != 0 && !is_wall && below(3) == 0;
+    // Rounding decides whether the peer takes a fillet at the foot of a wall.
+    if (has_fillet && heading > 0) is_wall = false;
     if (!is_wall) along += run;
     depth += rise;
     highest = std::max(highest, depth);
     lines.push_back(line_to(along, depth));
     // The peer finds the side of a corner by a gap of a hundredth.
     has_corner = i + 1 < count && below(4) == 0;
+    has_fillet = has_corner && below(2) == 0 && !(is_wall && heading < 0);
     if (has_corner)
-      lines.back() += fmt::format(" {}{}", below(2) == 0 ? 'A' : 'C', text_of(between(400, 700)));
+      lines.back() += fmt::format(" {}{}", has_fillet ? 'A' : 'C', text_of(between(400, 700)));
   }
   // The peer plunges where the end is not above the first point.
   if (headings.back() == 1) lines.push_back(line_to(along += 2'000, depth));
