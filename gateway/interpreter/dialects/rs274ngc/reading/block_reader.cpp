@@ -6,6 +6,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/comments.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/number_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter::rs274ngc {
@@ -13,6 +14,9 @@ namespace {
 
 constexpr AddressSet kNistLetters = set_of("ABCDFHIJKLPQRSTXYZ");
 constexpr AddressSet kLaterLetters = set_of("ABCDEFHIJKLPQRSTUVWXYZ@^");
+
+/// Letters with rules on their values.
+constexpr AddressSet kChecked = set_of("DFHLPQST");
 
 struct LowestValue {
   char letter;
@@ -62,6 +66,14 @@ AddressSet axes_or_corners(const Run& run) {
   return run.options.axes | set_of("ACUW");
 }
 
+/// Letters whose values are taken as they are read.
+AddressSet plain_letters(const Run& run, AddressSet letters) {
+  AddressSet plain = letters & ~kChecked & ~(kAxisWords & ~axes_or_corners(run));
+  if (run.state.modes.is_diameter) [[unlikely]]
+    plain &= ~set_of("X");
+  return plain;
+}
+
 bool add_word(Run& run, Address address, const char* start, const char*& at) {
   Words& words = run.block.words;
   const AddressSet word = AddressSet{1} << address;
@@ -71,7 +83,6 @@ bool add_word(Run& run, Address address, const char* start, const char*& at) {
   }
   double value = 0;
   if (!read_value(run, at, value)) return false;
-  constexpr AddressSet kChecked = set_of("DFHLPQST");
   if ((word & kChecked) != 0) {
     if (!check_value(run, letter_of(address), value, run.column(start))) return false;
   } else if ((word & kAxisWords & ~axes_or_corners(run)) != 0) [[unlikely]] {
@@ -256,29 +267,39 @@ bool read_other(Run& run, const char*& at) {
   return refuse_character(run, at);
 }
 
+/// Any item of a line; `address` is the letter's, 26 and more where there is none.
+bool read_item(Run& run, Address address, AddressSet letters, const char*& at) {
+  if (address >= 26) return read_other(run, at);
+  const char* start = at;
+  ++at;
+  if ((letters >> address & 1u) != 0) return add_word(run, address, start, at);
+  if (address == address_of('G')) return add_g(run, start, at);
+  if (address == address_of('M')) return add_m(run, start, at);
+  return refuse_character(run, start);
+}
+
 }  // namespace
 
-bool read_items(Run& run, const char* at) {
+bool read_items(Run& run, const char* line) {
   const AddressSet letters = run.is_linuxcnc() ? kLaterLetters : kNistLetters;
-  for (;;) {
-    at = skip_blanks(at);
-    const char c = upper(*at);
-    if (const auto address = static_cast<Address>(c - 'A'); address < 26) [[likely]] {
-      const char* start = at;
-      ++at;
-      if ((AddressSet{1} << address & letters) != 0) [[likely]] {
-        if (!add_word(run, address, start, at)) return false;
-      } else if (c == 'G') {
-        if (!add_g(run, start, at)) return false;
-      } else if (c == 'M') {
-        if (!add_m(run, start, at)) return false;
-      } else {
-        return refuse_character(run, start);
+  const AddressSet plain = plain_letters(run, letters);
+  Words& words = run.block.words;
+  for (const char* at = skip_blanks(line);; at = skip_blanks(at)) {
+    constexpr char kSmall = 'a' - 'A';
+    const auto address = static_cast<Address>((*at | kSmall) - 'a');
+    if (address < 26 && (plain & ~words.present()) >> address & 1u) [[likely]] {
+      // Most words of a program: a letter that is new on the line, and a number.
+      double value = 0;
+      if (const char* after = take_plain_number(at + 1, value)) [[likely]] {
+        words.set(address, value, run.column(at));
+        at = after;
+        continue;
       }
-      continue;
     }
-    if (is_end_of_line(c)) return true;
-    if (!read_other(run, at)) return false;
+    if (is_end_of_line(*at)) return true;
+    const char* after = at;
+    if (!read_item(run, address, letters, after)) return false;
+    at = after;
   }
 }
 

@@ -27,10 +27,22 @@ bool read_long_number(Run& run, const char*& at, double& value) {
 
 }  // namespace
 
-bool read_unusual_number(Run& run, const char*& at, NumberFault fault, double& value) {
-  if (fault == NumberFault::TooManyDigits) return read_long_number(run, at, value);
-  if (fault == NumberFault::SecondPoint) {
-    return run.fail(ErrorCode::BadNumber, run.column(at), "a second point");
+bool read_unusual_number(Run& run, const char*& at, double& value) {
+  constexpr NumberRules kRules{.skip_blanks = true};
+  NumberText number;
+  // the line's end is no character of a number, so that no end need be given
+  const char* after = read_number<kRules>(at, nullptr, number);
+  switch (number.fault) {
+    case NumberFault::None:
+      value = number.value;
+      at = after;
+      return true;
+    case NumberFault::TooManyDigits:
+      return read_long_number(run, at, value);
+    case NumberFault::SecondPoint:
+      return run.fail(ErrorCode::BadNumber, run.column(at), "a second point");
+    case NumberFault::NoDigits:
+      break;
   }
   return run.fail(ErrorCode::NoDigits, run.column(at));
 }
