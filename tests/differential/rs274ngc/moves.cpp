@@ -7,7 +7,7 @@
 namespace dripline::differential {
 namespace {
 
-constexpr double kStanding = 1e-7;
+constexpr double kStanding = 1e-6;
 
 /// Along one and the same axis, and in its direction.
 bool continues(const std::array<double, 6>& before, const std::array<double, 6>& at,

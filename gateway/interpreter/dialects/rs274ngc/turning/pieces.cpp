@@ -157,9 +157,10 @@ bool meet(ContourPiece& piece, ContourPiece& next, const ContourLimits& limits) 
                           : meet_line_and_arc(piece, next, limits.least, at);
   }
   if (!is_met) return false;
-  // Of arcs that touch as good as once LinuxCNC takes the point on the left.
+  // Of arcs that touch as good as once LinuxCNC takes the point on the left, of two points of a
+  // line that are equally near that further on: a wall that begins level with its fillet's center.
   const double to_first = length(at[0] - next.from);
-  const bool is_first = to_first <= length(at[1] - next.from) ||
+  const bool is_first = to_first <= length(at[1] - next.from) + limits.same ||
                         (piece.is_arc && next.is_arc && to_first <= 10 * limits.gap);
   piece.to = next.from = is_first ? at[0] : at[1];
   return true;
