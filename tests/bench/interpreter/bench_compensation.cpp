@@ -91,8 +91,8 @@ void compensation_on(benchmark::State& state) {
 BENCHMARK(compensation_on)->Unit(benchmark::kMillisecond);
 
 /// The same contour as a program: `tests/bench/run` shows what compensation adds to a whole block.
-std::string pocket_program(std::string_view start_up) {
-  std::string text = fmt::format("O0001\nG21G90G17\nG1{}X50.Y0F500.\n", start_up);
+std::string pocket_program(std::string_view start_up, std::string_view head = "O0001\n") {
+  std::string text = fmt::format("{}G21G90G17\nG1{}X50.Y0F500.\n", head, start_up);
   for (int i = 0; i < kLaps; ++i) {
     text += "X90.\nG3X100.Y10.J10.\nG1Y60.\nX0\nY10.\nG3X10.Y0I10.\nG1X50.\n";
   }
@@ -108,9 +108,11 @@ std::string circle_program(std::string_view start_up) {
   return text + "G40G1Y30.\nM30\n";
 }
 
-void measure_program(benchmark::State& state, const std::string& text) {
-  const Dialect& control = **find_dialect("fanuc");
-  auto setup = parse_setup("[[tool]]\nnumber = 1\nradius = 4.0\n", control.units);
+void measure_program(benchmark::State& state, const std::string& text,
+                     std::string_view name = "fanuc",
+                     std::string_view settings = "[[tool]]\nnumber = 1\nradius = 4.0\n") {
+  const Dialect& control = **find_dialect(name);
+  auto setup = parse_setup(settings, control.units);
   CountingSink sink;
   for (auto _ : state) {
     MemorySource source(text);
@@ -141,6 +143,18 @@ void fanuc_arcs_compensated(benchmark::State& state) {
   measure_program(state, circle_program("G41D1"));
 }
 BENCHMARK(fanuc_arcs_compensated)->Unit(benchmark::kMillisecond);
+
+constexpr std::string_view kLinuxCnc = "[control]\nprofile = \"linuxcnc\"\n";
+
+void linuxcnc_contour(benchmark::State& state) {
+  measure_program(state, pocket_program("", ""), "rs274ngc", kLinuxCnc);
+}
+BENCHMARK(linuxcnc_contour)->Unit(benchmark::kMillisecond);
+
+void linuxcnc_contour_compensated(benchmark::State& state) {
+  measure_program(state, pocket_program("G41.1D8", ""), "rs274ngc", kLinuxCnc);
+}
+BENCHMARK(linuxcnc_contour_compensated)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dripline::interpreter::compensation

@@ -1,11 +1,11 @@
 #include <fmt/core.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/compensation/offset_curves.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 
 /// The later program holds the last move back until it knows the next: inside corners are trimmed
@@ -14,23 +14,36 @@
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
-constexpr double kStraightOn = 0.05;  ///< radians
+/// Between program and machine in the plane alone: each corner needs several points.
+class PlaneFrame {
+ public:
+  explicit PlaneFrame(const Run& run) : run_(run), plane_(axes_of(run.state.modes.plane)) {}
 
-/// As to_machine, but of the plane alone: each corner needs several points.
-PlaneVector machine_point(const Run& run, PlaneVector program) {
-  const State& state = run.state;
-  const PlaneAxes plane = axes_of(state.modes.plane);
-  if (state.rotation == 0) [[likely]] {
-    const auto shifted = [&](Axis axis, double value) {
-      return value + state.g92[index_of(axis)] + state.system_offset[index_of(axis)];
-    };
-    return {shifted(plane.first, program.first), shifted(plane.second, program.second)};
+  PlaneVector machine_point(PlaneVector program) const {
+    const State& state = run_.state;
+    if (state.rotation == 0) [[likely]] {
+      const auto shifted = [&](Axis axis, double value) {
+        return value + state.g92[index_of(axis)] + state.system_offset[index_of(axis)];
+      };
+      return {shifted(plane_.first, program.first), shifted(plane_.second, program.second)};
+    }
+    Axes axes = state.position;
+    axes[index_of(plane_.first)] = program.first;
+    axes[index_of(plane_.second)] = program.second;
+    return in_plane(to_machine(run_, axes), plane_);
   }
-  Axes axes = state.position;
-  axes[index_of(plane.first)] = program.first;
-  axes[index_of(plane.second)] = program.second;
-  return in_plane(to_machine(run, axes), plane);
-}
+  PlaneVector machine_direction(PlaneVector program) const {
+    if (run_.state.rotation == 0) [[likely]]
+      return program;
+    const double turned = run_.state.rotation * (Angle::kPi / 180);
+    return std::cos(turned) * program + std::sin(turned) * left_of(program);
+  }
+
+ private:
+  const Run& run_;
+  PlaneAxes plane_;
+};
+
 PlaneVector plane_point(const Run& run, const Position& position) {
   return in_plane(position, axes_of(run.state.modes.plane));
 }
@@ -39,69 +52,28 @@ void put(const Run& run, Position& position, PlaneVector point) {
   set_in_plane(position, axes_of(run.state.modes.plane), point);
 }
 
-/// A straight line through `at` along `angle`, or a circle about `at`.
-struct OffsetCurve {
-  bool is_circle = false;
-  PlaneVector at;
-  double angle = 0;
-  double radius = 0;
-};
-
-struct Meeting {
-  int count = 0;
-  std::array<PlaneVector, 2> points{};
-};
-
-Meeting meet_line(const OffsetCurve& line, const OffsetCurve& other) {
-  const double c = std::cos(line.angle);
-  const double s = std::sin(line.angle);
-  if (!other.is_circle) {
-    const double cross = c * std::sin(other.angle) - s * std::cos(other.angle);
-    if (std::fabs(cross) < 1e-12) return {};
-    const double first = other.at.first - line.at.first;
-    const double second = other.at.second - line.at.second;
-    const double t = (first * std::sin(other.angle) - second * std::cos(other.angle)) / cross;
-    return {1, {along(line.at, line.angle, t), {}}};
-  }
-  // The foot of the center on the line, and half the chord.
-  const double t = (other.at.first - line.at.first) * c + (other.at.second - line.at.second) * s;
-  const PlaneVector foot = along(line.at, line.angle, t);
-  const double away = distance(foot, other.at);
-  if (away > other.radius) return {};
-  const double half = std::sqrt(other.radius * other.radius - away * away);
-  return {2, {along(foot, line.angle, half), along(foot, line.angle, -half)}};
-}
-
-Meeting meet(const OffsetCurve& a, const OffsetCurve& b) {
-  if (!a.is_circle) return meet_line(a, b);
-  if (!b.is_circle) return meet_line(b, a);
-  const double apart = distance(a.at, b.at);
-  if (apart == 0) return {};
-  const double t = (apart * apart + a.radius * a.radius - b.radius * b.radius) / (2 * apart);
-  if (std::fabs(t) > a.radius) return {};
-  const double half = std::sqrt(a.radius * a.radius - t * t);
-  const double base = direction(a.at, b.at);
-  const PlaneVector foot = along(a.at, base, t);
-  return {2, {along(foot, base + kQuarter, half), along(foot, base - kQuarter, half)}};
+PlaneVector center_of(const Arc& arc) {
+  return {arc.center_first.mm(), arc.center_second.mm()};
 }
 
 /// The held move's curve: an arc's circle, or the line it was programmed along.
-OffsetCurve held_curve(const Run& run, PlaneVector tool, double old_normal) {
+OffsetCurve held_curve(const Run& run, PlaneVector tool, PlaneVector old_normal) {
   if (const auto* arc = std::get_if<Arc>(&run.held.events().front())) {
-    const PlaneVector center{arc->center_first.mm(), arc->center_second.mm()};
-    return {true, center, 0, distance(center, tool)};
+    const PlaneVector center = center_of(*arc);
+    return {.is_circle = true, .at = center, .along = {}, .radius = length(tool - center)};
   }
-  return {false, tool, old_normal + kQuarter, 0};
+  return {.at = tool, .along = left_of(old_normal)};
 }
 
 /// Ends the held arc at `end`; false when it would then be longer than it was programmed, for its
 /// corners have eaten it up.
 bool end_arc(const Run& run, Arc& arc, PlaneVector end) {
   const double slack = run.state.units == Units::Inch ? 0.001 : 0.0254;  // radians
-  const PlaneVector center{arc.center_first.mm(), arc.center_second.mm()};
-  const PlaneVector start = plane_point(run, run.held.start());
   const double whole = 360 * std::floor((arc.sweep.degrees() - 1e-6) / 360);
-  const double sweep = sweep_of(center, start, end, arc.turn);
+  const bool is_whole = end == plane_point(run, arc.to);
+  const double sweep =
+      is_whole ? arc.sweep.degrees() - whole
+               : sweep_of(center_of(arc), plane_point(run, run.held.start()), end, arc.turn);
   if (sweep > run.state.compensation.held_sweep + slack * (180 / Angle::kPi)) return false;
   put(run, arc.to, end);
   arc.sweep = Angle::degrees(sweep + whole);
@@ -142,13 +114,16 @@ bool finish_held(Run& run, PlaneVector end, PlaneVector travel) {
 
 enum class Corner : std::uint8_t { StraightOn, Convex, Concave };
 
+/// Where the held move ends and the next begins, in machine coordinates; normals point from the
+/// path to the tool and have length 1.
 struct Entry {
-  PlaneVector corner;  ///< machine coordinates
+  PlaneVector corner;
   PlaneVector tool;
-  double normal = 0;                            ///< of the tool at the start of the next move
-  std::optional<Turn> next_turn;                ///< of an arc
-  const Target* next = nullptr;                 ///< not at the end of compensation
-  double old_normal = direction(corner, tool);  ///< of the tool at the end of the held move
+  PlaneVector normal = {};                                ///< at the start of the next move
+  PlaneVector next_start = {};                            ///< of the tool, in program coordinates
+  std::optional<Turn> next_turn = {};                     ///< of an arc
+  const Target* next = nullptr;                           ///< not at the end of compensation
+  PlaneVector old_normal = of_length_one(tool - corner);  ///< at the end of the held move
 };
 
 /// A path straight back leads into a valley, not around a point, where the arc beside it (the next
@@ -160,20 +135,18 @@ bool turns_back_inside(const Run& run, std::optional<Turn> next_turn) {
 }
 
 Corner corner_of(const Run& run, const Entry& entry) {
-  const double turn = turned_into(side_sign(run) * (entry.old_normal - entry.normal), -kQuarter);
-  if (turn < -kStraightOn || turn > Angle::kPi + kStraightOn) return Corner::Concave;
-  if (turn > Angle::kPi - kStraightOn && turns_back_inside(run, entry.next_turn))
-    return Corner::Concave;
-  return turn > kStraightOn ? Corner::Convex : Corner::StraightOn;
-}
-
-PlaneVector unit_vector(double angle) {
-  return {std::cos(angle), std::sin(angle)};
+  // A path is straight on, or straight back, up to 0.05 radians; this is their sine.
+  constexpr double kStraight = 0.04997916927067833;
+  const double sine = side_sign(run) * cross(entry.normal, entry.old_normal);
+  if (sine < -kStraight) return Corner::Concave;
+  if (sine > kStraight) return Corner::Convex;
+  if (dot(entry.normal, entry.old_normal) > 0) return Corner::StraightOn;
+  return turns_back_inside(run, entry.next_turn) ? Corner::Concave : Corner::Convex;
 }
 
 /// Direction in which the held move arrives at the corner, of length 1.
 PlaneVector travel_of(const Run& run, const Entry& entry) {
-  return unit_vector(entry.old_normal - side_sign(run) * kQuarter);
+  return -side_sign(run) * left_of(entry.old_normal);
 }
 
 /// About the programmed corner, at the height where the held moves end; not held itself.
@@ -206,12 +179,11 @@ PlaneVector leaving_point(const Run& run, const Entry& entry, const OffsetCurve&
   const auto* held = std::get_if<Arc>(&run.held.events().front());
   const bool is_inside_held = held != nullptr && is_inside(run, held->turn);
   if (held != nullptr && next.is_circle) {
-    const PlaneVector center{held->center_first.mm(), held->center_second.mm()};
-    const PlaneVector left = unit_vector(direction(center, next.at) + kQuarter);
+    const PlaneVector left = left_of(next.at - center_of(*held));
     const bool is_left = is_inside_held == (*entry.next_turn == Turn::Counterclockwise);
     return (dot(a - b, left) > 0) == is_left ? a : b;
   }
-  const PlaneVector along = held != nullptr ? unit_vector(next.angle) : travel;
+  const PlaneVector along = held != nullptr ? next.along : travel;
   const bool is_last = held != nullptr ? !is_inside_held : is_inside(run, *entry.next_turn);
   return (dot(a - b, along) > 0) == is_last ? a : b;
 }
@@ -222,12 +194,9 @@ bool join(Run& run, const Entry& entry, const OffsetCurve& next, bool is_rapid, 
   switch (corner_of(run, entry)) {
     case Corner::StraightOn:
       return finish_held(run, entry.tool, travel);
-    case Corner::Convex: {
-      const double normal = entry.normal - run.state.rotation * (Angle::kPi / 180);
-      const PlaneVector to = along(programmed_point(run), normal, run.state.compensation.radius);
+    case Corner::Convex:
       return finish_held(run, entry.tool, travel) &&
-             make_corner(run, corner_end(run, *entry.next, to), is_rapid, feed);
-    }
+             make_corner(run, corner_end(run, *entry.next, entry.next_start), is_rapid, feed);
     case Corner::Concave:
       break;
   }
@@ -335,15 +304,22 @@ bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& fee
     move_to(run, moved_to(run, target, tool_point(run)), is_rapid, feed);
     return true;
   }
-  const double heading = direction(start, end);
-  const double normal = heading + side_sign(run) * kQuarter;
-  const PlaneVector stop = along(end, normal, compensation.radius);
-  const double turned = run.state.rotation * (Angle::kPi / 180);
-  const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)), normal + turned,
-                    std::nullopt, &target};
-  const OffsetCurve next{false, machine_point(run, stop), heading + turned, 0};
-  if (!run.held.empty() && !join(run, entry, next, is_rapid, feed)) return false;
-  Hold(run).line(moved_to(run, target, stop), is_rapid, feed);
+  const PlaneVector heading = of_length_one(end - start);
+  const PlaneVector normal = side_sign(run) * left_of(heading);
+  const PlaneVector aside = compensation.radius * normal;
+  if (!run.held.empty()) {
+    const PlaneFrame frame(run);
+    const Entry entry{.corner = frame.machine_point(start),
+                      .tool = frame.machine_point(tool_point(run)),
+                      .normal = frame.machine_direction(normal),
+                      .next_start = start + aside,
+                      .next_turn = std::nullopt,
+                      .next = &target};
+    const OffsetCurve next{.at = frame.machine_point(end + aside),
+                           .along = frame.machine_direction(heading)};
+    if (!join(run, entry, next, is_rapid, feed)) return false;
+  }
+  Hold(run).line(moved_to(run, target, end + aside), is_rapid, feed);
   programmed_at(run, end);
   return true;
 }
@@ -356,16 +332,24 @@ bool trimmed_arc(Run& run, const Target& target, PlaneVector center, Turn turn, 
   const PlaneVector start = programmed_point(run);
   const PlaneVector end = point_of(run, target.to);
   const bool inside = is_inside(run, turn);
-  const double radius = distance(center, end);
+  const double radius = length(end - center);
   if (inside && radius <= compensation.radius) return run.fail(ErrorCode::CompArcRadius, 0);
   const double path = inside ? radius - compensation.radius : radius + compensation.radius;
-  const double outward = direction(center, start);
-  const double turned = run.state.rotation * (Angle::kPi / 180);
-  const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)),
-                    (inside ? outward + Angle::kPi : outward) + turned, turn, &target};
-  const OffsetCurve next{true, machine_point(run, center), 0, path};
-  if (!run.held.empty() && !join(run, entry, next, false, feed)) return false;
-  const PlaneVector stop = along(center, direction(center, end), path);
+  if (!run.held.empty()) {
+    const PlaneFrame frame(run);
+    const PlaneVector outward = of_length_one(start - center);
+    const PlaneVector normal = inside ? -outward : outward;
+    const Entry entry{.corner = frame.machine_point(start),
+                      .tool = frame.machine_point(tool_point(run)),
+                      .normal = frame.machine_direction(normal),
+                      .next_start = start + compensation.radius * normal,
+                      .next_turn = turn,
+                      .next = &target};
+    const OffsetCurve next{
+        .is_circle = true, .at = frame.machine_point(center), .along = {}, .radius = path};
+    if (!join(run, entry, next, false, feed)) return false;
+  }
+  const PlaneVector stop = center + (path / radius) * (end - center);
   const double sweep = sweep_of(center, tool_point(run), stop, turn) + 360 * (full_circles - 1);
   if (!Hold(run).arc(moved_to(run, target, stop), {center.first, center.second, turn, sweep},
                      feed)) {
@@ -390,8 +374,9 @@ void continue_from_tool(Run& run) {
 bool stop_trimming(Run& run) {
   Compensation& compensation = run.state.compensation;
   if (compensation.is_first) return true;
-  const Entry end{machine_point(run, programmed_point(run)), machine_point(run, tool_point(run)), 0,
-                  std::nullopt, nullptr};
+  const PlaneFrame frame(run);
+  const Entry end{.corner = frame.machine_point(programmed_point(run)),
+                  .tool = frame.machine_point(tool_point(run))};
   if (!finish_held(run, end.tool, travel_of(run, end))) return false;
   Position tool = run.state.machine;
   put(run, tool, end.tool);

@@ -189,6 +189,8 @@ bool arc_move(Run& run, bool is_clockwise) {
     return false;
   }
   run.state.passes = 0;
+  if (is_compensated && state.modes.feed != FeedMode::InverseTime)
+    return compensated_arc(run, target, center, turn, full_circles, feed);
   const auto normal = index_of(axes.normal);
   const double turned = sweep_of(center, start, end, turn) + 360 * (full_circles - 1);
   if (state.modes.feed == FeedMode::InverseTime) [[unlikely]]
