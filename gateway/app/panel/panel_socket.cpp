@@ -170,8 +170,8 @@ class PanelSocket::Server {
   void close_idle();
   void hang_up(Connection& connection) const;
   static void close(const Connection& connection);
-  static void reply(Connection& connection, const std::string& line);
-  static void send(Connection& connection);
+  void reply(Connection& connection, const std::string& line) const;
+  void send(Connection& connection) const;
 
   Descriptor listening_;
   std::function<void(PanelRequest)> on_request_;
@@ -207,7 +207,7 @@ void PanelSocket::Server::serve() {
       if ((events & POLLIN) != 0) read(ids[i], connection);
       const bool is_gone = (events & (POLLERR | POLLNVAL)) != 0 ||
                            ((events & POLLHUP) != 0 && (events & POLLIN) == 0);
-      if (is_gone && !connection.is_closing) hang_up(connection);
+      if (is_gone) hang_up(connection);
     }
     if (polled[1].revents != 0) take_answers();
     std::erase_if(connections_, [](const auto& entry) {
@@ -236,12 +236,14 @@ void PanelSocket::Server::close_idle() {
   const auto idle = std::min_element(
       connections_.begin(), connections_.end(),
       [](const auto& a, const auto& b) { return a.second.last_heard < b.second.last_heard; });
+  hang_up(idle->second);
   close(idle->second);
   connections_.erase(idle);
 }
 
 /// It gets no answer, but the stops that it has sent take effect.
 void PanelSocket::Server::hang_up(Connection& connection) const {
+  if (connection.is_closing) return;
   constexpr std::size_t kMost = 16 * (kMaxPanelLine + 1);
   char bytes[512];
   while (connection.received.size() < kMost) {
@@ -288,11 +290,7 @@ void PanelSocket::Server::read(std::uint64_t id, Connection& connection) {
   char bytes[512];
   const auto count = ::read(connection.socket->get(), bytes, sizeof bytes);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
-  if (count <= 0) {
-    connection.is_closing = true;
-    connection.to_send.clear();
-    return;
-  }
+  if (count <= 0) return hang_up(connection);
   connection.last_heard = ++clock_;
   connection.received.append(bytes, static_cast<std::size_t>(count));
   ask(id, connection);
@@ -326,24 +324,20 @@ void PanelSocket::Server::ask(std::uint64_t id, Connection& connection) {
   }
 }
 
-void PanelSocket::Server::reply(Connection& connection, const std::string& line) {
-  if (connection.to_send.size() + line.size() + 1 > kMaxAnswers) {
-    connection.is_closing = true;
-    connection.to_send.clear();
-    return;
-  }
+void PanelSocket::Server::reply(Connection& connection, const std::string& line) const {
+  if (connection.to_send.size() + line.size() + 1 > kMaxAnswers) return hang_up(connection);
   connection.to_send += line + "\n";
   send(connection);
 }
 
-void PanelSocket::Server::send(Connection& connection) {
+void PanelSocket::Server::send(Connection& connection) const {
   const auto count = ::send(connection.socket->get(), connection.to_send.data(),
                             connection.to_send.size(), MSG_NOSIGNAL);
   if (count > 0) {
     connection.to_send.erase(0, static_cast<std::size_t>(count));
   } else if (errno != EAGAIN && errno != EINTR) {
-    connection.is_closing = true;
     connection.to_send.clear();
+    hang_up(connection);
   }
 }
 

@@ -15,8 +15,9 @@ namespace dripline::gateway {
 /// line for each (README.md, "The panel"). A thread of its own does the reading and writing.
 /// Bounded: kMaxConnections at a time, and a new one closes the one that has
 /// been silent longest, so that a stop is always heard; one open request each; kMaxPanelLine bytes
-/// a line. What is asked more than kMaxAge ago, or by an end that has closed its connection, is
-/// late (PanelRequest::why_late): its sender may have given up, as ask_panel does.
+/// a line. However a connection ends, the stops that it has sent take effect. What is asked more
+/// than kMaxAge ago, or by an end that has closed its connection, is late (PanelRequest::why_late):
+/// its sender may have given up, as ask_panel does.
 class PanelSocket {
  public:
   static constexpr std::size_t kMaxConnections = 8;

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
+#include <algorithm>
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
@@ -187,6 +188,40 @@ TEST_F(HeldPanel, AStopOfASenderThatHasGoneTakesEffect) {
   {
     const Descriptor one = ask("status\ncycle-start\nhold\n");
     (void)late(0);
+  }
+  std::unique_lock lock(mutex_);
+  ASSERT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30), [&] { return asked_.size() > 1; }));
+  EXPECT_EQ(asked_[1].command.verb, PanelCommand::Verb::Hold);
+}
+
+/// Button boxes that poll a gateway that hangs, and one of them had a stop pressed.
+TEST_F(HeldPanel, AStopOfAConnectionThatMakesRoomTakesEffect) {
+  const Descriptor stopped = ask("status\ncycle-start\nhold\n");
+  (void)late(0);
+  std::vector<Descriptor> others;
+  for (std::size_t i = 1; i <= PanelSocket::kMaxConnections; ++i) {
+    others.push_back(ask("status\n"));
+    (void)late(i - 1);
+  }
+  std::unique_lock lock(mutex_);
+  const bool is_stopped = changed_.wait_for(lock, std::chrono::seconds(30), [&] {
+    return std::ranges::any_of(asked_, [](const PanelRequest& request) {
+      return request.command.verb == PanelCommand::Verb::Hold;
+    });
+  });
+  EXPECT_TRUE(is_stopped);
+  EXPECT_TRUE(std::ranges::none_of(asked_, [](const PanelRequest& request) {
+    return request.command.verb == PanelCommand::Verb::CycleStart;
+  }));
+}
+
+/// It reads no answer, and so the next one is too much for it.
+TEST_F(HeldPanel, AStopOfAConnectionThatReadsNothingTakesEffect) {
+  const Descriptor one = ask("status\nhold\n");
+  (void)late(0);
+  {
+    const std::lock_guard lock(mutex_);
+    asked_[0].answer(std::string(17'000, 'x'));
   }
   std::unique_lock lock(mutex_);
   ASSERT_TRUE(changed_.wait_for(lock, std::chrono::seconds(30), [&] { return asked_.size() > 1; }));
