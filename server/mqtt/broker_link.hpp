@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/base/name_lookup.hpp"
 #include "protocol/base/result.hpp"
 #include "server/mqtt/mqtt_settings.hpp"
 
@@ -39,9 +40,9 @@ class BrokerLink {
     std::vector<std::string> received = {};  ///< payloads; what is long, or too many, is left out
   };
 
-  /// Begins to connect; `will` is what the broker publishes for us when the connection is lost.
-  /// `subscribed`: a topic whose messages are wanted; empty: none. Errors: Io, Denied (TLS files,
-  /// password).
+  /// Begins to connect, without waiting; `will` is what the broker publishes for us when the
+  /// connection is lost. `subscribed`: a topic whose messages are wanted; empty: none. Errors: Io,
+  /// Denied (TLS files, password).
   virtual Result<void> open(const Message& will, const std::string& subscribed) = 0;
   /// Hands a message to the connection, without waiting for the broker. The number grows from
   /// message to message of a connection. Errors: Io, LimitExceeded (the broker takes no message of
@@ -59,6 +60,7 @@ class BrokerLink {
 
 /// MQTT over TCP, with TLS or without. `client_id` must not be used by another client of the
 /// broker.
-std::unique_ptr<BrokerLink> make_mqtt_link(MqttSettings settings, std::string client_id);
+std::unique_ptr<BrokerLink> make_mqtt_link(MqttSettings settings, std::string client_id,
+                                           NameLookup lookup = look_up);
 
 }  // namespace dripline::mqtt

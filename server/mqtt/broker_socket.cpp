@@ -1,13 +1,10 @@
 #include "server/mqtt/broker_socket.hpp"
 
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <array>
 #include <cerrno>
-#include <cstring>
-#include <memory>
 #include <system_error>
 
 namespace dripline::mqtt {
@@ -22,31 +19,30 @@ bool is_for_later(int error) {
 
 }  // namespace
 
-Result<void> BrokerSocket::open(const std::string& host, std::uint16_t port) {
+Result<void> BrokerSocket::open(const std::string& host, std::uint16_t port,
+                                const NameLookup& lookup) {
   *this = BrokerSocket();
-  addrinfo wanted{};
-  wanted.ai_family = AF_UNSPEC;
-  wanted.ai_socktype = SOCK_STREAM;
-  wanted.ai_flags = AI_NUMERICSERV;
-  addrinfo* list = nullptr;
-  const int found = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &list);
-  if (found != 0) return fail(Errc::Io, "{}", ::gai_strerror(found));
-  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(list, ::freeaddrinfo);
-  for (const auto* one = list; one != nullptr; one = one->ai_next) {
-    Address address;
-    if (one->ai_addrlen > sizeof address.bytes) continue;
-    std::memcpy(&address.bytes, one->ai_addr, one->ai_addrlen);
-    address.size = one->ai_addrlen;
-    untried_.push_back(address);
-  }
+  port_ = port;
+  auto begun = PendingLookup::begin(host, lookup);
+  if (!begun) return fail(begun.error());
+  lookup_ = std::move(*begun);
+  return take_addresses();
+}
+
+Result<void> BrokerSocket::take_addresses() {
+  const auto found = lookup_->result();
+  if (!found) return {};
+  lookup_.reset();
+  if (!*found) return fail(Errc::Io, "{}", found->error().what);
+  untried_.assign((*found)->begin(), (*found)->end());
   return try_next(EADDRNOTAVAIL);
 }
 
 Result<void> BrokerSocket::try_next(int error) {
   while (!untried_.empty()) {
-    const Address address = untried_.front();
+    const auto address = socket_address(untried_.front(), port_);
     untried_.pop_front();
-    error = begin(address);
+    error = address ? begin(*address) : EADDRNOTAVAIL;
     if (error == 0) return {};
   }
   socket_ = Descriptor();
@@ -54,21 +50,23 @@ Result<void> BrokerSocket::try_next(int error) {
 }
 
 /// 0: it is being connected.
-int BrokerSocket::begin(const Address& address) {
+int BrokerSocket::begin(const SocketAddress& address) {
   socket_ = Descriptor();
-  socket_ =
-      Descriptor(::socket(address.bytes.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  socket_ = Descriptor(::socket(address.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket_) return errno;
   begun_ = std::chrono::steady_clock::now();
   const int on = 1;
   (void)::setsockopt(socket_.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  const auto* name = reinterpret_cast<const sockaddr*>(&address.bytes);
-  if (::connect(socket_.get(), name, address.size) == 0) return 0;
+  if (::connect(socket_.get(), address.get(), address.size) == 0) return 0;
   return errno == EINPROGRESS || errno == EINTR ? 0 : errno;
 }
 
 Result<bool> BrokerSocket::connect() {
   if (is_connected_) return true;
+  if (lookup_) {
+    if (auto taken = take_addresses(); !taken) return fail(taken.error());
+    if (lookup_) return false;
+  }
   pollfd file{.fd = socket_.get(), .events = POLLOUT, .revents = 0};
   int error = ETIMEDOUT;
   if (::poll(&file, 1, 0) > 0) {

@@ -21,9 +21,10 @@ constexpr std::chrono::milliseconds kLook{1000};
 /// The session over a socket, with TLS between them or without.
 class MqttLink final : public BrokerLink {
  public:
-  MqttLink(MqttSettings settings, std::string client_id)
+  MqttLink(MqttSettings settings, std::string client_id, NameLookup lookup)
       : settings_(std::move(settings)),
         client_id_(std::move(client_id)),
+        lookup_(std::move(lookup)),
         wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
   Result<void> open(const Message& will, const std::string& subscribed) override {
@@ -41,7 +42,7 @@ class MqttLink final : public BrokerLink {
                                   .keep_alive = kKeepAliveSeconds,
                                   .is_version_5 = settings_.is_version_5});
     if (auto begun = session_->begin(will, subscribed, clock_.steady_now()); !begun) return begun;
-    if (auto opened = socket_.open(settings_.host, settings_.port); !opened)
+    if (auto opened = socket_.open(settings_.host, settings_.port, lookup_); !opened)
       return fail(opened.error().code, "{}: {}", settings_.broker, opened.error().what);
     return {};
   }
@@ -151,6 +152,7 @@ class MqttLink final : public BrokerLink {
   std::string_view next_piece() const { return session_->output().substr(0, BrokerSocket::kPiece); }
 
   bool wants_to_send() const {
+    if (socket_.is_looking_up()) return false;
     if (!socket_.is_connected() || !encrypted_.empty()) return true;
     return (!tls_ || tls_->is_open()) && !session_->output().empty();
   }
@@ -167,6 +169,7 @@ class MqttLink final : public BrokerLink {
 
   const MqttSettings settings_;
   const std::string client_id_;
+  const NameLookup lookup_;
   const SystemClock clock_;
   Descriptor wake_;
   BrokerSocket socket_;
@@ -178,8 +181,9 @@ class MqttLink final : public BrokerLink {
 
 }  // namespace
 
-std::unique_ptr<BrokerLink> make_mqtt_link(MqttSettings settings, std::string client_id) {
-  return std::make_unique<MqttLink>(std::move(settings), std::move(client_id));
+std::unique_ptr<BrokerLink> make_mqtt_link(MqttSettings settings, std::string client_id,
+                                           NameLookup lookup) {
+  return std::make_unique<MqttLink>(std::move(settings), std::move(client_id), std::move(lookup));
 }
 
 }  // namespace dripline::mqtt

@@ -86,6 +86,8 @@ Result<void> TlsClient::receive(std::string_view encrypted, std::string& plain) 
   std::array<char, 16 * 1024> piece{};
   while (true) {
     const int got = SSL_read(session_.get(), piece.data(), static_cast<int>(piece.size()));
+    if (BIO_ctrl_pending(SSL_get_wbio(session_.get())) > kMaxOutput)
+      return fail(Errc::LimitExceeded, "TLS: does not take its answers");
     if (got <= 0) return end_with(got);
     plain.append(piece.data(), static_cast<std::size_t>(got));
   }

@@ -18,7 +18,12 @@ class TlsClient {
   /// Errors: Denied (a file; a key with a passphrase, too).
   static Result<TlsClient> make(const MqttSettings& settings);
 
-  /// Encrypted bytes that have come; what they say is appended to `plain`. Errors: Denied.
+  /// Of OpenSSL's own answers (to wishes for another handshake, other keys), for a broker that
+  /// does not take them: it may send such wishes without an end.
+  static constexpr std::size_t kMaxOutput = 256 * 1024;
+
+  /// Encrypted bytes that have come; what they say is appended to `plain`. Errors: Denied,
+  /// LimitExceeded (kMaxOutput).
   Result<void> receive(std::string_view encrypted, std::string& plain);
   /// Appends to what is to be sent. Errors: Denied. Only once it is open.
   Result<void> send(std::string_view plain);

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "protocol/base/digest.hpp"
+#include "protocol/base/name_lookup.hpp"
 #include "protocol/base/result.hpp"
-#include "server/webhooks/name_lookup.hpp"
 #include "storage/webhook_store.hpp"
 
 namespace dripline::webhooks {

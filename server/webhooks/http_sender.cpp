@@ -105,8 +105,7 @@ class HttplibSender final : public Sender {
     const Place place = place_of(delivery.url);
     const SteadyTime end = std::chrono::steady_clock::now() + 3 * timeout_;
     const auto addresses = addresses_of(place.host, lookup_, end, stop);
-    if (!addresses)
-      return fail(addresses.error().code, "{}: {}", place.origin, addresses.error().what);
+    if (!addresses) return fail(Errc::Timeout, "{}: {}", place.origin, addresses.error().what);
     WatchedSocket socket;
     const Deadline deadline(socket, end, kMaxExchange, stop);
     for (const std::string& address : *addresses) {

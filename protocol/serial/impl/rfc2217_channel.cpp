@@ -218,7 +218,7 @@ Result<std::unique_ptr<Channel>> open_rfc2217(const std::string& name, const Tcp
                                               const wire::LineSettings& settings,
                                               std::chrono::milliseconds limit) {
   const Deadline end = std::chrono::steady_clock::now() + limit;
-  auto socket = connect_tcp(address, limit);
+  auto socket = connect_tcp(address, limit, look_up);
   if (!socket) return fail(socket.error());
   auto channel = std::make_unique<Rfc2217Channel>(name, std::move(*socket));
   if (const auto done = channel->negotiate(settings, end); !done) return fail(done.error());

@@ -1,12 +1,12 @@
 #include "protocol/serial/impl/tcp_socket.hpp"
 
-#include <netdb.h>
 #include <poll.h>
 #include <algorithm>
 #include <cerrno>
 #include <memory>
 #include <system_error>
 
+#include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
@@ -32,11 +32,11 @@ void watch_peer(int socket) {
 }
 
 /// 0, or the error.
-int connect_one(const addrinfo& place, Deadline end, Descriptor& to) {
-  Descriptor socket(::socket(place.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+int connect_one(const SocketAddress& place, Deadline end, Descriptor& to) {
+  Descriptor socket(::socket(place.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket) return errno;
   watch_peer(socket.get());
-  if (::connect(socket.get(), place.ai_addr, place.ai_addrlen) != 0) {
+  if (::connect(socket.get(), place.get(), place.size) != 0) {
     if (errno != EINPROGRESS) return errno;
     if (!wait_for(socket.get(), POLLOUT, end)) return ETIMEDOUT;
     int error = 0;
@@ -62,19 +62,17 @@ bool wait_for(int descriptor, short events, Deadline end) {
   }
 }
 
-Result<Descriptor> connect_tcp(const TcpAddress& address, std::chrono::milliseconds limit) {
+Result<Descriptor> connect_tcp(const TcpAddress& address, std::chrono::milliseconds limit,
+                               const NameLookup& lookup) {
   const Deadline end = std::chrono::steady_clock::now() + limit;
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* list = nullptr;
-  const std::string port = std::to_string(address.port);
-  const int found = ::getaddrinfo(address.host.c_str(), port.c_str(), &hints, &list);
-  if (found != 0) return fail(Errc::NotFound, "host {}: {}", address.host, ::gai_strerror(found));
-  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(list, &::freeaddrinfo);
+  const auto places = addresses_of(address.host, lookup, end, {});
+  if (!places) return fail(places.error().code, "host {}: {}", address.host, places.error().what);
   int error = EHOSTUNREACH;
-  for (const addrinfo* place = list; place != nullptr; place = place->ai_next) {
+  for (const std::string& place : *places) {
+    const auto to = socket_address(place, address.port);
+    if (!to) continue;
     Descriptor socket;
-    error = connect_one(*place, end, socket);
+    error = connect_one(*to, end, socket);
     if (error == 0) return socket;
     if (error == ETIMEDOUT) break;
   }
@@ -127,7 +125,7 @@ class TcpChannel final : public Channel {
 
 Result<std::unique_ptr<Channel>> open_tcp(const std::string& name, const TcpAddress& address,
                                           std::chrono::milliseconds limit) {
-  auto socket = connect_tcp(address, limit);
+  auto socket = connect_tcp(address, limit, look_up);
   if (!socket) return fail(socket.error());
   return std::unique_ptr<Channel>(std::make_unique<TcpChannel>(name, std::move(*socket)));
 }

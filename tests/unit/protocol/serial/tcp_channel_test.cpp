@@ -5,7 +5,9 @@
 #include <thread>
 
 #include "protocol/serial/channel.hpp"
+#include "protocol/serial/impl/tcp_socket.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/silent_lookup.hpp"
 #include "tests/unit/protocol/serial/tcp_peer.hpp"
 
 namespace dripline::serial {
@@ -56,6 +58,15 @@ INSTANTIATE_TEST_SUITE_P(
 
 using namespace std::chrono_literals;
 using test_support::eventually;
+
+TEST(ConnectTcp, WaitsForNoNameServerBeyondItsLimit) {
+  const test_support::SilentLookup silent;
+  const auto opened = connect_tcp({"moxa-3.example", 4001, false}, 50ms, silent.lookup());
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, Errc::Timeout);
+  EXPECT_NE(opened.error().what.find("host moxa-3.example: the name server"), std::string::npos)
+      << opened.error().what;
+}
 
 TEST(TcpChannel, CarriesCharactersBothWays) {
   TcpPeer peer;

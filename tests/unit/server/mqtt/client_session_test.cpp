@@ -188,6 +188,25 @@ TEST_F(ClientSessionTest, KeepsTheConnectionAlive) {
   EXPECT_EQ(silent.error().code, Errc::Timeout);
 }
 
+/// A broker on a slow line gets the ping after what was sent before it.
+TEST_F(ClientSessionTest, AwaitsTheAnswerFromWhenThePingIsWritten) {
+  make();
+  connect();
+  publish(0, std::string(3000, 'x'));
+  now_ += seconds(20);
+  ASSERT_TRUE(session_->look(now_));
+  for (int i = 0; i < 3; ++i) {
+    now_ += seconds(15);
+    session_->written(1000, now_);
+    EXPECT_TRUE(session_->look(now_)) << i;
+  }
+  sent();
+  now_ += seconds(19);
+  EXPECT_TRUE(session_->look(now_));
+  now_ += seconds(1);
+  EXPECT_EQ(session_->look(now_).error().code, Errc::Timeout);
+}
+
 TEST_F(ClientSessionTest, TakesMessagesOfItsTopicAlone) {
   make(true, "wish");
   connect();

@@ -1,8 +1,10 @@
 // The link over real sockets, to a broker of bytes.
 #include <gtest/gtest.h>
+#include <thread>
 
 #include "server/mqtt/broker_link.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/silent_lookup.hpp"
 #include "tests/unit/protocol/serial/tcp_peer.hpp"
 
 namespace dripline::mqtt {
@@ -114,6 +116,43 @@ TEST_F(MqttLinkTest, SaysThatNoOneIsThere) {
   const auto opened = link_->open({"w", "gone", 1, true}, "");
   const auto why = opened ? fault() : opened.error().what;
   EXPECT_NE(why.find("Connection refused"), std::string::npos) << why;
+}
+
+TEST_F(MqttLinkTest, WaitsForNoNameServer) {
+  const test_support::SilentLookup silent;
+  link_ =
+      make_mqtt_link(*read_mqtt("[mqtt]\nbroker='mqtt://broker.example'\n"), "me", silent.lookup());
+  ASSERT_TRUE(link_->open({"w", "gone", 1, true}, ""));
+  EXPECT_TRUE(test_support::eventually([&] { return silent.is_asked(); }));
+  EXPECT_FALSE(look().is_lost) << progress_.fault;
+  link_->wake();
+  link_->wait(milliseconds(60'000));
+  link_->close();
+}
+
+TEST_F(MqttLinkTest, ConnectsWhenItsHostIsLookedUp) {
+  const auto port = std::to_string(broker_.port());
+  link_ = make_mqtt_link(*read_mqtt("[mqtt]\nbroker='mqtt://broker.example:" + port + "'\n"), "me",
+                         [](const std::string& host) {
+                           EXPECT_EQ(host, "broker.example");
+                           return Result<HostAddresses>(HostAddresses{"127.0.0.2", "127.0.0.1"});
+                         });
+  ASSERT_TRUE(link_->open({"w", "gone", 1, true}, ""));
+  std::jthread accepting([this] { ASSERT_TRUE(broker_.accept()); });
+  for (int i = 0; i < 10; ++i) look();
+  accepting.join();
+  broker_.write(kAccepted);
+  EXPECT_TRUE(test_support::eventually([&] { return look().is_connected; })) << progress_.fault;
+}
+
+TEST_F(MqttLinkTest, NamesAHostThatIsNotKnown) {
+  link_ = make_mqtt_link(*read_mqtt("[mqtt]\nbroker='mqtt://broker.example'\n"), "me",
+                         [](const std::string&) {
+                           return Result<HostAddresses>(fail(Errc::NotFound, "no address: none"));
+                         });
+  const auto opened = link_->open({"w", "gone", 1, true}, "");
+  const auto why = opened ? fault() : opened.error().what;  // it may be known at once
+  EXPECT_NE(why.find("broker.example: no address: none"), std::string::npos) << why;
 }
 
 TEST_F(MqttLinkTest, EndsAWaitWhenItIsWoken) {

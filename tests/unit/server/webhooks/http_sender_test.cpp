@@ -11,7 +11,7 @@
 #include "protocol/base/descriptor.hpp"
 #include "server/webhooks/delivery.hpp"
 #include "tests/support/child_process.hpp"
-#include "tests/unit/server/webhooks/silent_lookup.hpp"
+#include "tests/support/silent_lookup.hpp"
 
 namespace dripline::webhooks {
 namespace {
@@ -264,7 +264,7 @@ TEST_F(HttpSenderTest, TakesAnAddressOfIPv6WithLetters) {
 }
 
 TEST_F(HttpSenderTest, ANameServerThatIsSilentIsNotWaitedForLonger) {
-  const SilentLookup silent;
+  const test_support::SilentLookup silent;
   const auto sender = make_http_sender(kShort, silent.lookup());
   const auto begun = std::chrono::steady_clock::now();
   const auto sent = sender->send(to("http://erp.example/"), {});

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "tests/support/child_process.hpp"
+#include "tests/support/silent_lookup.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
-#include "tests/unit/server/webhooks/silent_lookup.hpp"
 
 namespace dripline::webhooks {
 namespace {
@@ -199,7 +199,7 @@ TEST_F(WebhooksTest, ATestIsDeliveredAtOnce) {
 
 /// `remove` and the server's end wait for neither.
 TEST_F(WebhooksTest, AreStoppedWhateverTheirNameServerDoes) {
-  const SilentLookup silent;
+  const test_support::SilentLookup silent;
   const auto sender = make_http_sender(std::chrono::minutes(1), silent.lookup());
   Webhooks hooks({.store = store_->webhooks, .sender = *sender, .clock = clock_, .server = "db"},
                  {.look = std::chrono::milliseconds(5)});
@@ -212,7 +212,7 @@ TEST_F(WebhooksTest, AreStoppedWhateverTheirNameServerDoes) {
 }
 
 TEST_F(WebhooksTest, AStopEndsATestThatIsInProgress) {
-  const SilentLookup silent;
+  const test_support::SilentLookup silent;
   const auto sender = make_http_sender(std::chrono::minutes(1), silent.lookup());
   Webhooks hooks({.store = store_->webhooks, .sender = *sender, .clock = clock_, .server = "db"},
                  {});

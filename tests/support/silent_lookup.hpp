@@ -3,11 +3,10 @@
 #include <atomic>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "server/webhooks/name_lookup.hpp"
+#include "protocol/base/name_lookup.hpp"
 
-namespace dripline::webhooks {
+namespace dripline::test_support {
 
 /// Of a name server that is silent. It ends with the test, which it outlives otherwise.
 class SilentLookup {
@@ -16,7 +15,7 @@ class SilentLookup {
   NameLookup lookup() const {
     return [state = state_](const std::string&) {
       state->wait();
-      return Result<std::vector<std::string>>(fail(Errc::Timeout, "no answer"));
+      return Result<HostAddresses>(fail(Errc::NotFound, "no answer"));
     };
   }
   bool is_asked() const { return state_->is_asked; }
@@ -36,4 +35,4 @@ class SilentLookup {
   std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
-}  // namespace dripline::webhooks
+}  // namespace dripline::test_support
