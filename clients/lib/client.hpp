@@ -144,6 +144,7 @@ class Client {
   Reply<Revision> commit_upload(std::string_view id, const CommitRequest& request);
   Reply<void> drop_upload(std::string_view id);
 
+  /// All of them, in the order of their names.
   Reply<std::vector<Machine>> machines();
   Reply<Machine> machine(std::string_view name);
 
@@ -190,6 +191,7 @@ class Client {
   Reply<void> command_machine(std::string_view machine, const CommandRequest& request);
   /// The gateway that waits becomes the machine's.
   Reply<void> confirm_gateway(std::string_view machine);
+  Reply<void> remove_machine(std::string_view machine);
   Reply<std::vector<Record>> records(std::string_view run, std::string_view kind, Page page);
 
   Reply<std::vector<Port>> ports();

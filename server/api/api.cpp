@@ -53,6 +53,7 @@ Api::Api(Services services)
   add_webhook_routes(router_, services_);
   add_job_routes(router_, services_);
   add_upload_routes(router_, services_);
+  add_machine_list_routes(router_, services_);
   add_machine_routes(router_, services_);
   add_jog_routes(router_, services_);
   add_run_routes(router_, services_);

@@ -179,6 +179,7 @@ void add_gateway_routes(Router& router, Services& services);
 void add_webhook_routes(Router& router, Services& services);
 void add_job_routes(Router& router, Services& services);
 void add_upload_routes(Router& router, Services& services);
+void add_machine_list_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);
 void add_jog_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);

@@ -91,6 +91,7 @@ constexpr std::array kRoutes{
 
     RoutePermission{"GET", "/api/v1/machines", View},
     RoutePermission{"GET", "/api/v1/machines/{name}", View},
+    RoutePermission{"DELETE", "/api/v1/machines/{name}", Administer},
     RoutePermission{"POST", "/api/v1/machines/{name}/commands", Operate, Name, Command},
     RoutePermission{"POST", "/api/v1/machines/{name}/confirm-gateway", Operate, Name},
     RoutePermission{"POST", "/api/v1/machines/{name}/mdi", Operate, Name},

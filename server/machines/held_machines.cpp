@@ -156,6 +156,12 @@ std::vector<MachineView> HeldMachines::machines() const {
   return views;
 }
 
+std::vector<MachineView> HeldMachines::machines_after(const MachinePage& page) const {
+  auto views = inner_.machines_after(page);
+  for (MachineView& view : views) reasons_.add_to(view);
+  return views;
+}
+
 Result<MachineView> HeldMachines::machine(const std::string& name) const {
   auto view = inner_.machine(name);
   if (view) reasons_.add_to(*view);

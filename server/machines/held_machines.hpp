@@ -76,6 +76,7 @@ class HeldMachines final : public MachineControl {
       : runs_(runs), inner_(inner), reasons_(reasons) {}
 
   std::vector<MachineView> machines() const override;
+  std::vector<MachineView> machines_after(const MachinePage& page) const override;
   Result<MachineView> machine(const std::string& name) const override;
   std::optional<std::string> machine_of_run(const std::string& run) const override {
     return inner_.machine_of_run(run);
@@ -89,6 +90,9 @@ class HeldMachines final : public MachineControl {
   Result<JogAnswer> jog(const JogRequest& request) override { return inner_.jog(request); }
   Result<std::string> confirm_gateway(const std::string& machine) override {
     return inner_.confirm_gateway(machine);
+  }
+  Result<void> remove(const std::string& machine, const storage::Actor& who) override {
+    return inner_.remove(machine, who);
   }
 
  private:

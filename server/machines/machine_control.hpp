@@ -170,12 +170,20 @@ struct CommandTarget {
   std::string program;  ///< empty: not looked up
 };
 
+struct MachinePage {
+  std::string after;  ///< a name; empty: from the first one
+  std::size_t limit = 0;
+};
+
 /// The machines as the API sees them. Any thread; `start` and `command` wait for the gateway's
 /// answer, at most some seconds.
 class MachineControl {
  public:
   virtual ~MachineControl() = default;
+  /// In order of their names.
   virtual std::vector<MachineView> machines() const = 0;
+  /// Of those the first ones whose name is after this one.
+  virtual std::vector<MachineView> machines_after(const MachinePage& page) const;
   /// Errors: NotFound.
   virtual Result<MachineView> machine(const std::string& name) const = 0;
   /// Which machine reports this run as its own now; without the store, so that a stop needs none.
@@ -203,6 +211,10 @@ class MachineControl {
   /// run may be in progress. Returns what it is, for people. Errors: NotFound, Conflict (none
   /// waits).
   virtual Result<std::string> confirm_gateway(const std::string& machine);
+  /// A machine that is no more there: it is listed no more, what refers to it stays. One that
+  /// announces itself again is there again. Errors: NotFound, Busy (connected, or with a run that
+  /// has not ended), Conflict (it has a port, or jobs in its queue).
+  virtual Result<void> remove(const std::string& machine, const storage::Actor& who);
 };
 
 }  // namespace dripline::machines

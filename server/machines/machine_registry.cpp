@@ -43,7 +43,7 @@ void MachineRegistry::note_lost_switches(MachineView& view) {
 
 /// A status may come before the announcement.
 bool MachineRegistry::is_announced(const Entry& entry) {
-  return !entry.view.machine.name.empty();
+  return !entry.view.machine.name.empty() && !entry.is_removed;
 }
 
 bool MachineRegistry::is_shown(const Entry& entry) {
@@ -77,6 +77,7 @@ void MachineRegistry::on_announce(const dds::Announce& announce) {
     machine.name = announce.machine;
     machine.first_seen = now;
   }
+  entry.is_removed = false;
   machine.control = announce.control;
   machine.description = announce.description;
   machine.gateway_version = announce.version;
@@ -209,6 +210,16 @@ std::vector<MachineView> MachineRegistry::views() const {
   return views_of(is_shown);
 }
 
+std::vector<MachineView> MachineRegistry::views(const MachinePage& page) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<MachineView> views;
+  for (auto at = entries_.upper_bound(page.after);
+       at != entries_.end() && views.size() < page.limit; ++at) {
+    if (is_shown(at->second)) views.push_back(shown(at->second));
+  }
+  return views;
+}
+
 std::vector<MachineView> MachineRegistry::announced() const {
   return views_of(is_announced);
 }
@@ -299,11 +310,13 @@ bool MachineRegistry::save_machine(Entry& entry) {
   storage::Machine machine;
   {
     const std::lock_guard lock(mutex_);
+    if (entry.is_removed || std::exchange(entry.is_saving, true)) return false;
     entry.machine_is_dirty = false;
     machine = entry.view.machine;
   }
   auto saved = parts_.machines.save(machine);
   const std::lock_guard lock(mutex_);
+  entry.is_saving = false;
   if (!saved) {
     process::log_warning("machine not saved machine={}: {}", machine.name, saved.error().what);
     entry.machine_is_dirty = true;

@@ -91,8 +91,11 @@ class MachineRegistry {
 
   /// Those that are stored.
   std::vector<MachineView> views() const;
+  std::vector<MachineView> views(const MachinePage& page) const;
   /// Errors: NotFound (also of a machine that is not stored yet).
   Result<MachineView> view(const std::string& name) const;
+  /// Promises: MachineControl::remove.
+  Result<void> remove(const std::string& name, const storage::Actor& who);
   /// The same without the store: every machine that has announced itself. For its records, and for
   /// commands, which stop a machine whatever the database does.
   std::vector<MachineView> announced() const;
@@ -124,10 +127,13 @@ class MachineRegistry {
     bool is_in_round = false;   ///< it waits for the next round
     bool is_telling = false;
     bool machine_is_dirty = false;  ///< the stored part changed
-    bool is_stored = false;         ///< for the first time, and so for good
+    bool is_stored = false;         ///< until it is removed
+    bool is_saving = false;
+    bool is_removed = false;  ///< until it announces itself
     bool counters_are_dirty = false;
   };
   static bool is_announced(const Entry& entry);
+  static Result<void> check_removable(const Entry& entry);
   static bool is_shown(const Entry& entry);
   std::vector<MachineView> views_of(bool (*is_wanted)(const Entry&)) const;
   Result<MachineView> view_of(const std::string& name, bool (*is_wanted)(const Entry&)) const;
@@ -151,7 +157,7 @@ class MachineRegistry {
 
   Parts parts_;
   mutable std::mutex mutex_;
-  std::map<std::string, Entry> entries_;  ///< none is ever removed
+  std::map<std::string, Entry> entries_;  ///< what is removed keeps its entry
   std::vector<Entry*> round_;             ///< not empty: a round is due
 };
 

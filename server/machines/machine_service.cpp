@@ -1,5 +1,6 @@
 #include "server/machines/machine_service.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "protocol/dds/endpoint.hpp"
@@ -178,6 +179,14 @@ std::vector<MachineView> MachineService::machines() const {
   return registry_.views();
 }
 
+std::vector<MachineView> MachineService::machines_after(const MachinePage& page) const {
+  return registry_.views(page);
+}
+
+Result<void> MachineService::remove(const std::string& machine, const storage::Actor& who) {
+  return registry_.remove(machine, who);
+}
+
 Result<MachineView> MachineService::machine(const std::string& name) const {
   return registry_.view(name);
 }
@@ -293,10 +302,6 @@ std::optional<std::string> machine_with(const std::vector<MachineView>& views,
 }
 
 }  // namespace
-
-Result<std::string> MachineControl::confirm_gateway(const std::string& machine) {
-  return fail(Errc::Conflict, "machine '{}': no gateway waits to be confirmed", machine);
-}
 
 std::optional<std::string> MachineControl::machine_of_run(const std::string& run) const {
   return machine_with(machines(), run);

@@ -56,6 +56,7 @@ class MachineService final : public MachineControl {
   void end();
 
   std::vector<MachineView> machines() const override;
+  std::vector<MachineView> machines_after(const MachinePage& page) const override;
   Result<MachineView> machine(const std::string& name) const override;
   Result<storage::Run> start(const StartRequest& request) override;
   Result<void> command(const CommandRequest& request) override;
@@ -63,6 +64,7 @@ class MachineService final : public MachineControl {
   Result<PositionAnswer> position(const PositionRequest& request) override;
   Result<JogAnswer> jog(const JogRequest& request) override;
   Result<std::string> confirm_gateway(const std::string& machine) override;
+  Result<void> remove(const std::string& machine, const storage::Actor& who) override;
   /// The machine's screen shows by its newest setup from now on, if its gateway is there. It does
   /// not wait.
   void show_setup(const std::string& machine);

@@ -285,59 +285,6 @@ void LineMachines::announce(const std::string& run) const {
   if (const auto stored = store_.runs.find(run)) listener_.on_run(*stored);
 }
 
-std::vector<machines::MachineView> MachineRouter::machines() const {
-  std::map<std::string, machines::MachineView> views;
-  for (auto& view : gateways_.machines()) {
-    const std::string name = view.machine.name;
-    views.emplace(name, std::move(view));
-  }
-  for (auto& view : lines_.machines()) {
-    const std::string name = view.machine.name;
-    const auto gateway = views.find(name);
-    view.is_contested = gateway != views.end() && gateway->second.is_connected;
-    views.insert_or_assign(name, std::move(view));
-  }
-  std::vector<machines::MachineView> ordered;
-  ordered.reserve(views.size());
-  for (auto& [name, view] : views) ordered.push_back(std::move(view));
-  return ordered;
-}
-
-Result<machines::MachineView> MachineRouter::machine(const std::string& name) const {
-  auto gateway = gateways_.machine(name);
-  auto line = lines_.machine(name);
-  if (!line) return gateway;
-  line->is_contested = gateway && gateway->is_connected;
-  return line;
-}
-
-Result<storage::Run> MachineRouter::start(const machines::StartRequest& request) {
-  if (!lines_.machine(request.machine)) {
-    const auto gateway = gateways_.machine(request.machine);
-    const bool has_line = gateway && gateway->has_gateway_line();
-    if (has_line) {
-      const PortView port = view_of(*gateway, *gateway->status->serial_line);
-      if (auto ready = lines_.resets().check(port, ""); !ready) return fail(ready.error());
-    }
-    if (request.head == machines::StartHead::Ask || has_line) return gateways_.start(request);
-    return fail(Errc::Unsupported,
-                "machine '{}' has a gateway, which looks through the program up to the beginning: "
-                "head is for serial lines",
-                request.machine);
-  }
-  if (request.is_mdi) {
-    return fail(Errc::Unsupported, "machine '{}' is at the end of a line: MDI is its control's own",
-                request.machine);
-  }
-  if (const auto view = machine(request.machine); view && view->is_contested) {
-    return fail(Errc::Busy,
-                "a gateway claims to be machine '{}', which has a port: stop the gateway or "
-                "disable the port",
-                request.machine);
-  }
-  return lines_.start(request);
-}
-
 Result<std::string> LineMachines::values(const machines::ValueQuery& query) {
   return fail(Errc::Unsupported,
               "machine {}: its control is at the end of a line, and its values are there",
@@ -351,41 +298,10 @@ Result<machines::PositionAnswer> LineMachines::position(const machines::Position
       request.machine);
 }
 
-Result<machines::PositionAnswer> MachineRouter::position(const machines::PositionRequest& request) {
-  return lines_.machine(request.machine) ? lines_.position(request) : gateways_.position(request);
-}
-
 Result<machines::JogAnswer> LineMachines::jog(const machines::JogRequest& request) {
   return fail(Errc::Unsupported,
               "machine {}: its control is at the end of a line: jog it there, in sight of the axes",
               request.machine);
-}
-
-Result<machines::JogAnswer> MachineRouter::jog(const machines::JogRequest& request) {
-  return lines_.machine(request.machine) ? lines_.jog(request) : gateways_.jog(request);
-}
-
-Result<std::string> MachineRouter::values(const machines::ValueQuery& query) {
-  return lines_.machine(query.machine) ? lines_.values(query) : gateways_.values(query);
-}
-
-std::optional<std::string> MachineRouter::machine_of_run(const std::string& run) const {
-  auto machine = gateways_.machine_of_run(run);
-  return machine ? machine : lines_.machine_of_run(run);
-}
-
-Result<void> MachineRouter::command(const machines::CommandRequest& request) {
-  if (request.run.empty()) {
-    return lines_.has(request.machine) ? lines_.command(request) : gateways_.command(request);
-  }
-  // What a machine reports needs no store: a stop reaches it while there is none.
-  auto machine = machine_of_run(request.run);
-  if (!machine) {
-    const auto run = runs_.find(request.run);
-    if (!run) return fail(run.error());
-    machine = run->machine;
-  }
-  return lines_.has(*machine) ? lines_.command(request) : gateways_.command(request);
 }
 
 }  // namespace dripline::ports

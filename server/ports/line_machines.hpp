@@ -107,8 +107,9 @@ class MachineRouter final : public machines::MachineControl {
   MachineRouter(storage::RunStore& runs, machines::MachineControl& gateways, LineMachines& lines)
       : runs_(runs), gateways_(gateways), lines_(lines) {}
 
-  /// In order of their names.
   std::vector<machines::MachineView> machines() const override;
+  std::vector<machines::MachineView> machines_after(
+      const machines::MachinePage& page) const override;
   Result<machines::MachineView> machine(const std::string& name) const override;
   /// Needs no store.
   std::optional<std::string> machine_of_run(const std::string& run) const override;
@@ -120,8 +121,12 @@ class MachineRouter final : public machines::MachineControl {
   Result<std::string> confirm_gateway(const std::string& machine) override {
     return gateways_.confirm_gateway(machine);
   }
+  Result<void> remove(const std::string& machine, const storage::Actor& who) override;
 
  private:
+  using Views = std::vector<machines::MachineView>;
+  static Views merged(Views gateways, Views lines);
+
   storage::RunStore& runs_;
   machines::MachineControl& gateways_;
   LineMachines& lines_;

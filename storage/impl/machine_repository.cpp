@@ -1,4 +1,5 @@
 #include "protocol/base/names.hpp"
+#include "storage/impl/audit_repository.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/sql/query.hpp"
 
@@ -53,7 +54,7 @@ Result<void> MachineRepository::save(const Machine& machine) {
         "control = excluded.control, description = excluded.description, "
         "gateway_version = excluded.gateway_version, epoch = excluded.epoch, "
         "first_seen_us = min(machine.first_seen_us, excluded.first_seen_us), "
-        "last_seen_us = max(machine.last_seen_us, excluded.last_seen_us)",
+        "last_seen_us = max(machine.last_seen_us, excluded.last_seen_us), removed_us = NULL",
         machine.name, machine.control, machine.description, machine.gateway_version, machine.epoch,
         machine.first_seen, machine.last_seen);
   });
@@ -69,9 +70,46 @@ Result<Machine> MachineRepository::find(const std::string& name) {
 }
 
 Result<std::vector<Machine>> MachineRepository::list() {
-  static const std::string kSql = kSelectMachine + "ORDER BY name";
+  static const std::string kSql = kSelectMachine + "WHERE removed_us IS NULL ORDER BY name";
   return connections_.read(
       [&](sql::Database& database) { return sql::all_rows(database, kSql, read_machine); });
+}
+
+namespace {
+
+/// Whether nothing of it waits or is in progress.
+Result<void> check_at_rest(sql::Database& database, const std::string& name, std::int64_t machine) {
+  const auto run = sql::first_row(
+      database, "SELECT id FROM run WHERE machine = ?1 AND state IN ('ordered', 'active') LIMIT 1",
+      [](const sql::Statement& row) { return row.text(0); }, machine);
+  if (!run) return fail(run.error());
+  if (*run) return fail(Errc::Busy, "machine {} is busy with run {}", name, **run);
+  const auto job = sql::first_row(
+      database,
+      "SELECT job.id FROM job JOIN job_count AS c ON c.job = job.id WHERE job.machine = ?1 AND "
+      "job.removed_us IS NULL AND (CASE WHEN job.counts = 'good' THEN c.good ELSE c.made END) < "
+      "job.quantity LIMIT 1",
+      [](const sql::Statement& row) { return row.integer(0); }, machine);
+  if (!job) return fail(job.error());
+  if (*job) return fail(Errc::Conflict, "machine {} has a job in its queue: {}", name, **job);
+  return {};
+}
+
+}  // namespace
+
+Result<void> MachineRepository::remove(const std::string& name, const Actor& who, UtcTime time) {
+  return connections_.write([&](sql::Database& database) -> Result<void> {
+    const auto machine = sql::first_row(
+        database, "SELECT id FROM machine WHERE name = ?1 AND removed_us IS NULL",
+        [](const sql::Statement& row) { return row.integer(0); }, name);
+    if (!machine) return fail(machine.error());
+    if (!*machine) return fail(Errc::NotFound, "machine {} is not known", name);
+    if (auto rests = check_at_rest(database, name, **machine); !rests) return rests;
+    auto removed =
+        sql::run(database, "UPDATE machine SET removed_us = ?2 WHERE id = ?1", **machine, time);
+    if (!removed) return removed;
+    return add_audit(database, {time, who, "machine.remove", name, ""});
+  });
 }
 
 Result<void> MachineRepository::hold(const MachineHold& hold) {

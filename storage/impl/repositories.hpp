@@ -28,6 +28,7 @@ class MachineRepository final : public MachineStore {
   Result<void> save(const Machine& machine) override;
   Result<Machine> find(const std::string& name) override;
   Result<std::vector<Machine>> list() override;
+  Result<void> remove(const std::string& name, const Actor& who, UtcTime time) override;
   Result<void> hold(const MachineHold& hold) override;
   Result<void> release(const std::string& machine) override;
   Result<std::vector<MachineHold>> holds() override;

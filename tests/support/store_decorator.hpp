@@ -69,6 +69,9 @@ class MachineStoreDecorator : public storage::MachineStore {
   Result<void> save(const storage::Machine& machine) override { return inner_.save(machine); }
   Result<storage::Machine> find(const std::string& name) override { return inner_.find(name); }
   Result<std::vector<storage::Machine>> list() override { return inner_.list(); }
+  Result<void> remove(const std::string& name, const storage::Actor& who, UtcTime time) override {
+    return inner_.remove(name, who, time);
+  }
   Result<void> hold(const storage::MachineHold& hold) override { return inner_.hold(hold); }
   Result<void> release(const std::string& machine) override { return inner_.release(machine); }
   Result<std::vector<storage::MachineHold>> holds() override { return inner_.holds(); }

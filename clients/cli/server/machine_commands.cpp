@@ -190,6 +190,25 @@ void add_confirm_gateway(Command group, Context& context) {
   run_at_server(command, context, name, confirm_gateway);
 }
 
+int remove_machine(Context& context, client::Client& client, const std::string& machine) {
+  if (auto removed = client.remove_machine(machine); !removed) return complain(removed.error());
+  context.print(fmt::format("{} is removed; its runs and records stay.\n", machine));
+  return kExitOk;
+}
+
+void add_remove(Command group, Context& context) {
+  auto command = group.add_subcommand("remove", "Remove a machine that is no more there");
+  auto name = std::make_shared<std::string>();
+  command.add_option("NAME", *name, "The machine").required();
+  command.footer(
+      "It is listed no more. Its runs, records, setups and entries of the audit trail stay, and "
+      "the groups that name it.\nRefused while its gateway is connected, a run of it has not "
+      "ended, "
+      "or it has a port or jobs in its queue. When its\ngateway connects again it is there again, "
+      "as before.\n\nExample:\n  dnc machine remove lathe-9");
+  run_at_server(command, context, name, remove_machine);
+}
+
 struct MdiCommand {
   std::string machine;
   std::vector<std::string> blocks;
@@ -251,7 +270,8 @@ void add_machine_commands(Command app, Context& context) {
   auto group = app.add_subcommand("machine", "Machines and what they do now");
   group.require_subcommand(1);
 
-  auto list = group.add_subcommand("list", "List all machines that ever connected");
+  auto list =
+      group.add_subcommand("list", "List all machines that ever connected, without removed ones");
   add_json_flag(list, context);
   run_at_server(list, context, list_machines);
 
@@ -263,6 +283,7 @@ void add_machine_commands(Command app, Context& context) {
 
   add_switch(group, context);
   add_confirm_gateway(group, context);
+  add_remove(group, context);
   add_value_verbs(group, context);
   add_mdi(group, context);
   add_position_verbs(group, context);

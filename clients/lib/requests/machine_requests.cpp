@@ -1,4 +1,6 @@
 // The calls of Client for machines: what is known of them, their panels, and what is keyed in.
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "clients/lib/client.hpp"
@@ -19,7 +21,15 @@ using Json = nlohmann::json;
 }  // namespace
 
 Reply<std::vector<Machine>> Client::machines() {
-  return fetch_list<Machine>(path_of("machines"), "machines");
+  constexpr std::size_t kPage = 1000;
+  const std::string first = with_query(path_of("machines"), "limit", std::to_string(kPage));
+  auto all = fetch_list<Machine>(first, "machines");
+  for (std::size_t taken = kPage; all && all->size() == taken; taken += kPage) {
+    auto page = fetch_list<Machine>(with_query(first, "after", all->back().name), "machines");
+    if (!page) return page;
+    std::ranges::move(*page, std::back_inserter(*all));
+  }
+  return all;
 }
 
 Reply<Machine> Client::machine(std::string_view name) {
@@ -70,6 +80,10 @@ Reply<void> Client::command_machine(std::string_view machine, const CommandReque
 
 Reply<void> Client::confirm_gateway(std::string_view machine) {
   return perform(with_method("POST", path_of("machines", machine) + "/confirm-gateway"));
+}
+
+Reply<void> Client::remove_machine(std::string_view machine) {
+  return perform(with_method("DELETE", path_of("machines", machine)));
 }
 
 }  // namespace dripline::client

@@ -152,20 +152,6 @@ void add_setup_routes(Router& router, Services& services) {
 
 namespace {
 
-Response list_machines(Services& services, const Request& request) {
-  QueryReader query(request);
-  if (auto good = query.finish(); !good) return error_response(good.error());
-  auto list = nlohmann::json::array();
-  for (const auto& view : services.machines.machines()) list.push_back(machine_json(view));
-  return json_response(200, {{"machines", std::move(list)}});
-}
-
-Response show_machine(Services& services, const Request& request) {
-  QueryReader query(request);
-  if (auto good = query.finish(); !good) return error_response(good.error());
-  return value_response(200, services.machines.machine(request.parameter("name")), machine_json);
-}
-
 /// What the gateway answers is checked: programs read it.
 Result<nlohmann::json> values_json(const std::string& machine, const std::string& answer) {
   auto values = nlohmann::json::parse(answer, nullptr, false);
@@ -362,8 +348,6 @@ Response command_machine(Services& services, const Request& request) {
 }  // namespace
 
 void add_machine_routes(Router& router, Services& services) {
-  router.add("GET", "/api/v1/machines", with(services, list_machines));
-  router.add("GET", "/api/v1/machines/{name}", with(services, show_machine));
   router.add("GET", "/api/v1/machines/{name}/values", with(services, show_values),
              Waits::ForMachine);
   router.add("POST", "/api/v1/machines/{name}/commands", with(services, command_machine),

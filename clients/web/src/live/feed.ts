@@ -24,6 +24,17 @@ const kDelaysMs = [250, 500, 1000, 2000, 4000];
 const kMaxRuns = 1000;
 const kMaxImports = 1000;
 const kMaxOffsets = 1000;
+const kMachinesAtOnce = 1000;
+
+/// Page by page: the server gives no more at once.
+async function allMachines(signal: AbortSignal): Promise<Machine[]> {
+  const all: Machine[] = [];
+  for (;;) {
+    const { machines } = await get<Machines>(pathOf('machines'), { limit: kMachinesAtOnce, after: all.at(-1)?.name }, signal);
+    all.push(...machines);
+    if (machines.length < kMachinesAtOnce) return all;
+  }
+}
 
 export const importKey = (import_: { program: string; revision: number }) => `import ${import_.revision} ${import_.program}`;
 
@@ -128,8 +139,8 @@ export class Feed {
   /// The whole state, once the stream is open: what changes meanwhile arrives as an event, which is newer.
   private async load(signal: AbortSignal): Promise<void> {
     try {
-      const [{ machines }, { runs }, { imports }, { offsets }] = await Promise.all([
-        get<Machines>(pathOf('machines'), {}, signal), get<Runs>(pathOf('runs'), { limit: kMaxRuns }, signal),
+      const [machines, { runs }, { imports }, { offsets }] = await Promise.all([
+        allMachines(signal), get<Runs>(pathOf('runs'), { limit: kMaxRuns }, signal),
         get<Imports>(pathOf('imports'), { limit: kMaxImports }, signal), get<Offsets>(pathOf('offsets'), { state: 'pending', limit: kMaxOffsets }, signal)]);
       const present = new Set(machines.map((machine) => machine.name));
       for (const name of this.machines.keys()) if (!present.has(name)) this.machines.delete(name);

@@ -61,6 +61,23 @@ test('an answer that an event has overtaken changes nothing', async () => {
   feed.end();
 });
 
+test('more machines than one answer holds are asked for page by page', async () => {
+  const names = Array.from({ length: 1001 }, (_, number) => `m${String(number).padStart(4, '0')}`);
+  const server = new FakeServer([], []);
+  const inner = globalThis.fetch;
+  globalThis.fetch = (async (path: string, init: RequestInit) => {
+    if (!path.includes('/machines')) return inner(path, init);
+    const query = new URL(path, 'http://server').searchParams;
+    const rest = names.filter((name) => name > (query.get('after') ?? '')).slice(0, Number(query.get('limit') ?? 100));
+    return new Response(JSON.stringify({ machines: rest.map((name) => ({ ...machine({}, {}), name })) }));
+  }) as typeof fetch;
+  const feed = new Feed();
+  feed.begin();
+  await until(() => { server.answerAll(); return feed.link.state === 'live'; });
+  assert.equal(feed.machines.size, 1001);
+  feed.end();
+});
+
 test('what no event has brought comes from the answers', async () => {
   const server = new FakeServer([machine({}, { execution: 'STOPPED' })], [run({ state: 'alarmed' })]);
   const feed = new Feed();

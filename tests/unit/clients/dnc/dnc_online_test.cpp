@@ -57,6 +57,21 @@ TEST_F(DncOnline, ListsEveryPage) {
   EXPECT_EQ(list.at("programs").size(), 250u);
 }
 
+TEST_F(DncOnline, ListsMoreMachinesThanOneAnswerHolds) {
+  for (int i = 0; i < 1001; ++i) server.set_machine(machine_json(fmt::format("m{:04}", i)));
+  const auto list = json::parse(dnc({"machine", "list", "--json"}).out);
+  ASSERT_EQ(list.at("machines").size(), 1001u);
+  EXPECT_EQ(list.at("machines").back().at("name"), "m1000");
+}
+
+TEST_F(DncOnline, RemovesAMachine) {
+  server.set_answer("DELETE /api/v1/machines/lathe-9", 204, "");
+  const auto removed = dnc({"machine", "remove", "lathe-9"});
+  EXPECT_EQ(removed.status, 0) << removed.err;
+  EXPECT_EQ(removed.out, "lathe-9 is removed; its runs and records stay.\n");
+  EXPECT_EQ(dnc({"machine", "remove", "lathe-8"}).status, 1);
+}
+
 TEST_F(DncOnline, TablesHaveNoColorsInAPipe) {
   server.set_machine(machine_json("lathe-1"));
   const auto list = dnc({"machine", "list"});

@@ -57,10 +57,13 @@ class FakeServer::Impl {
 
  private:
   void add_machine_routes() {
-    server_.Get("/api/v1/machines", [this](const Request&, Response& response) {
+    server_.Get("/api/v1/machines", [this](const Request& request, Response& response) {
       const std::lock_guard lock(mutex);
       json all = json::array();
-      for (const auto& [name, machine] : machines) all.push_back(machine);
+      const auto limit = std::stoul(request.get_param_value("limit"));
+      for (auto at = machines.upper_bound(request.get_param_value("after"));
+           at != machines.end() && all.size() < limit; ++at)
+        all.push_back(at->second);
       answer(response, 200, {{"machines", all}});
     });
     server_.Get(R"(/api/v1/machines/([\w-]+))", [this](const Request& request, Response& response) {
@@ -134,6 +137,7 @@ class FakeServer::Impl {
     const std::string ports = R"(/api/v1/port.*)";
     server_.Get(R"(/api/v1/programs/[^/]+/comparison)", give);
     server_.Get(R"(/api/v1/machines/[\w-]+/setup)", give);
+    server_.Delete(R"(/api/v1/machines/[\w-]+)", give);
     server_.Get(ports, give);
     server_.Put(ports, give);
     server_.Post(ports, give);

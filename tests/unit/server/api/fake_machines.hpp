@@ -63,7 +63,14 @@ class FakeMachines final : public machines::MachineControl {
     return "gateway 0.1.0";
   }
 
+  Result<void> remove(const std::string& name, const storage::Actor&) override {
+    removed.push_back(name);
+    if (refusal) return fail(*refusal);
+    return {};
+  }
+
   std::vector<machines::MachineView> views;
+  std::vector<std::string> removed;
   std::vector<std::string> confirmed;  ///< machines whose other gateway is theirs
   std::vector<machines::PositionRequest> positions;
   std::vector<machines::JogRequest> jogs;

@@ -324,6 +324,7 @@ TEST_F(OpenApiAnswers, FitsTheRealAnswers) {
                    post("/api/v1/machines/lathe-1/jog/hold", {{"hold", "a1"}}));
   expect_described("POST", "/api/v1/machines/{name}/confirm-gateway",
                    call("POST", "/api/v1/machines/lathe-1/confirm-gateway"));
+  expect_described("DELETE", "/api/v1/machines/{name}", call("DELETE", "/api/v1/machines/mill-9"));
   expect_described("GET", "/api/v1/machines/{name}/playback",
                    get("/api/v1/machines/lathe-1/playback?axes=XZ"));
   expect_described("POST", "/api/v1/machines/{name}/mdi",
