@@ -21,9 +21,17 @@ constexpr std::uint16_t server_port(std::uint32_t domain, std::uint32_t cell = 0
   return static_cast<std::uint16_t>(7410 + 250 * domain + 2 * cell);
 }
 
+/// The first of the two ports of a server's cell, as it is opened with these options.
+constexpr std::uint16_t first_port(const NetworkOptions& options, std::uint32_t cell) {
+  return options.port != 0 ? static_cast<std::uint16_t>(options.port + 2 * cell)
+                           : server_port(options.domain, cell);
+}
+
 /// Whether a server that is opened now finds its UDP ports free. Errors: Busy (it names one that is
 /// not; another server on this computer?).
 Result<void> check_ports(const NetworkOptions& options);
+/// The same of the second port of each cell alone: a GatewayListener has the first ones.
+Result<void> check_second_ports(const NetworkOptions& options);
 
 /// The Cyclone DDS configuration of one end of the star, complete: no default may
 /// reach another network. No multicast. Pure.

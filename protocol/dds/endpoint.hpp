@@ -158,6 +158,8 @@ class ServerEndpoint {
   virtual void renew_status(const std::string& /*machine*/) {}
   /// ServerHandlers::may_serve has another answer for this machine. Returns at once.
   virtual void look_again(const std::string& /*machine*/) {}
+  /// The gateways that this server hears, whether or not it is connected with them. Any thread.
+  virtual std::size_t heard_gateways() const { return 0; }
   virtual Rejected rejected() const = 0;
 };
 

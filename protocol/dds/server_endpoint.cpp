@@ -36,6 +36,11 @@ class Server final : public ServerEndpoint {
       if (takes_machine(machine, cell->number(), shared_.cells)) cell->look_again();
     }
   }
+  std::size_t heard_gateways() const override {
+    std::size_t count = 0;
+    for (const auto& cell : cells_) count += cell->heard_gateways();
+    return count;
+  }
   Rejected rejected() const override { return shared_.rejections.get(); }
 
  private:

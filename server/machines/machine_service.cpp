@@ -195,6 +195,10 @@ dds::Rejected MachineService::rejected() const {
   return endpoint_ ? endpoint_->rejected() : dds::Rejected{};
 }
 
+std::size_t MachineService::heard_gateways() const {
+  return endpoint_ ? endpoint_->heard_gateways() : 0;
+}
+
 Result<MachineView> MachineService::connected_machine(const std::string& name) const {
   auto view = registry_.announced(name);
   if (!view || view->is_connected) return view;

@@ -69,6 +69,8 @@ class MachineService final : public MachineControl {
   /// not wait.
   void show_setup(const std::string& machine);
   dds::Rejected rejected() const;
+  /// As of dds::ServerEndpoint; 0 before `begin`.
+  std::size_t heard_gateways() const;
   /// Promises: LineQueries::ask.
   Result<dds::LineData> ask_line(dds::LineRequest request,
                                  std::chrono::milliseconds limit = LineQueries::kLimit);

@@ -165,6 +165,12 @@ void Cell::renew_status(const std::string& machine) {
   news_came_.notify_one();
 }
 
+/// Each has one writer of announcements.
+std::size_t Cell::heard_gateways() const {
+  const dds_return_t count = dds_get_matched_publications(announces_->get(), nullptr, 0);
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
 void Cell::handle_silent(const std::string& machine) {
   const auto attached = find(machine);
   if (attached == nullptr || !attached->is_ready) return;

@@ -64,6 +64,8 @@ class Cell {
   void renew_status(const std::string& machine);
   /// As ServerEndpoint::look_again, for all machines of this cell.
   void look_again() { wake_watcher(); }
+  /// As ServerEndpoint::heard_gateways, in this cell.
+  std::size_t heard_gateways() const;
   std::uint32_t number() const { return number_; }
 
  private:

@@ -75,15 +75,15 @@ bool is_taken(std::uint16_t port) {
   return failed;
 }
 
+Result<void> check_port(const NetworkOptions& options, int port) {
+  if (!is_taken(static_cast<std::uint16_t>(port))) return {};
+  return fail(Errc::Busy, "DDS domain {}: UDP port {} is in use (another server?)", options.domain,
+              port);
+}
+
 Result<void> check_ports_of(const NetworkOptions& options, std::uint32_t cell) {
-  const int first = options.port != 0 ? static_cast<int>(options.port + 2 * cell)
-                                      : server_port(options.domain, cell);
-  for (const int port : {first + 0, first + 1}) {
-    if (!is_taken(static_cast<std::uint16_t>(port))) continue;
-    return fail(Errc::Busy, "DDS domain {}: UDP port {} is in use (another server?)",
-                options.domain, port);
-  }
-  return {};
+  if (auto free = check_port(options, first_port(options, cell)); !free) return free;
+  return check_port(options, first_port(options, cell) + 1);
 }
 
 }  // namespace
@@ -91,6 +91,13 @@ Result<void> check_ports_of(const NetworkOptions& options, std::uint32_t cell) {
 Result<void> check_ports(const NetworkOptions& options) {
   for (std::uint32_t cell = 0; cell < options.cells; ++cell) {
     if (auto free = check_ports_of(options, cell); !free) return free;
+  }
+  return {};
+}
+
+Result<void> check_second_ports(const NetworkOptions& options) {
+  for (std::uint32_t cell = 0; cell < options.cells; ++cell) {
+    if (auto free = check_port(options, first_port(options, cell) + 1); !free) return free;
   }
   return {};
 }
