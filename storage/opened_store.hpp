@@ -25,7 +25,15 @@ struct ServerFacts {
 struct WaitingServer {
   std::string described;  ///< "dncd 812 on srv-2, /var/lib/dripline"
   UtcTime seen{};         ///< by the database's clock, which may be set: another with each look
+  std::optional<std::uint64_t> gateways = {};  ///< that it hears; nullopt: not known
   bool operator==(const WaitingServer&) const = default;
+};
+
+/// Of the hand-overs that servers made because they heard no gateway any more.
+struct OwnHandOvers {
+  std::uint64_t count = 0;  ///< one soon after the other; 0: none that matters
+  bool has_helped = true;   ///< a gateway was heard after the last of them
+  bool operator==(const OwnHandOvers&) const = default;
 };
 
 /// A store with what its owner asks besides, whatever engine keeps it.
@@ -74,6 +82,9 @@ class OpenedStore : public Store {
   virtual Result<void> publish(const ServerFacts&) { return {}; }
   /// Those that have asked for the place in the last seconds. Errors: Io.
   virtual Result<std::vector<WaitingServer>> waiting() { return std::vector<WaitingServer>{}; }
+  /// Kept for all servers of the store. Errors: Io.
+  virtual Result<OwnHandOvers> own_hand_overs() { return OwnHandOvers{}; }
+  virtual Result<void> note_own_hand_overs(const OwnHandOvers&) { return {}; }
 
  protected:
   explicit OpenedStore(const Store& store) : Store(store) {}

@@ -32,6 +32,8 @@ struct PostgresqlStandby::Connection {
   bool has_tables = false;
   bool has_place = false;     ///< its schema has terms, and servers that wait
   bool has_settings = false;  ///< its schema has settings of the holder
+  bool has_gateways = false;  ///< its schema has the gateways that servers hear
+  std::optional<std::int64_t> noted_gateways{};
 };
 
 PostgresqlStandby::PostgresqlStandby(Options options)
@@ -57,10 +59,10 @@ Result<void> PostgresqlStandby::connect() {
   return {};
 }
 
-/// Until its schema has the place, as of a server that has migrated it.
+/// Until its schema is of a server that knows what this one does: it may be migrated meanwhile.
 Result<void> PostgresqlStandby::read_schema() {
   auto& database = connection_->database;
-  if (connection_->has_place) return {};
+  if (connection_->has_gateways) return {};
   const auto has_tables = postgresql::has_table(database, "store_holder");
   if (!has_tables) return fail(has_tables.error());
   connection_->has_tables = *has_tables;
@@ -78,7 +80,10 @@ Result<void> PostgresqlStandby::read_schema() {
   if (!has_terms) return fail(has_terms.error());
   const auto has_settings = postgresql::has_column(database, "store_holder", "settings");
   if (!has_settings) return fail(has_settings.error());
+  const auto has_gateways = postgresql::has_column(database, "store_standby", "gateways");
+  if (!has_gateways) return fail(has_gateways.error());
   connection_->has_place = *has_terms;
+  connection_->has_gateways = *has_gateways;
   connection_->has_settings = *has_settings;
   return {};
 }
@@ -96,12 +101,13 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
   const std::string facts =
       connection_->has_place ? "url, signing_key, term" : "'', '', CAST(0 AS bigint)";
   const std::string settings = connection_->has_settings ? "settings" : "''";
+  const std::string helped = connection_->has_gateways ? "has_helped" : "1";
   look.asked = SteadyClock::now();
   const auto row = sql::first_row(
       database,
       fmt::format("SELECT holder, CAST(extract(epoch FROM until) * 1000000 AS bigint), described, "
-                  "{}, {}, {} FROM store_holder WHERE id = 1",
-                  facts, settings, postgresql::kClockMicroseconds),
+                  "{}, {}, {}, {} FROM store_holder WHERE id = 1",
+                  facts, settings, postgresql::kClockMicroseconds, helped),
       [&](const sql::Statement& found) {
         view.described = found.text(2);
         view.url = found.text(3);
@@ -109,6 +115,7 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
         view.term = static_cast<std::uint64_t>(found.integer(5));
         view.settings = found.text(6);
         view.time = UtcTime(std::chrono::microseconds(found.integer(7)));
+        view.is_for_hearers = found.integer(8) == 0 && found.text(0).empty();
         view.lease = {found.text(0), view.term, found.integer(1)};
         return true;
       });
@@ -133,9 +140,9 @@ Result<PostgresqlStandby::View> PostgresqlStandby::read() {
   if (!identity) return fail(identity.error());
   view.identity = *std::move(identity);
   if (!connection_->has_place) return view;
-  const auto others = waiting_servers(database, options_.holder);
+  const auto others = has_other_waiting(database, options_.holder);
   if (!others) return fail(others.error());
-  view.has_others = !others->empty();
+  view.has_others = *others;
   if (auto noted = note(); !noted) return fail(noted.error());
   return view;
 }
@@ -180,12 +187,20 @@ Result<void> PostgresqlStandby::note() {
     return drop_waiting(connection_->database, options_.holder);
   }
   const auto now = SteadyClock::now();
-  if (noted && now - *noted < kNoteEvery) return {};
-  auto done = note_waiting(
-      connection_->database, options_.holder,
-      note_.empty() ? options_.described : fmt::format("{} ({})", options_.described, note_));
-  if (done) noted = now;
-  return done;
+  const auto gateways = connection_->has_gateways ? gateways_ : std::nullopt;
+  const bool is_news = gateways != connection_->noted_gateways;
+  if (noted && now - *noted < kNoteEvery && !is_news) return {};
+  auto done =
+      note_waiting(connection_->database,
+                   {.holder = options_.holder,
+                    .described = note_.empty() ? options_.described
+                                               : fmt::format("{} ({})", options_.described, note_),
+                    .gateways = gateways,
+                    .has_gateways = connection_->has_gateways});
+  if (!done) return done;
+  noted = now;
+  connection_->noted_gateways = gateways;
+  return {};
 }
 
 Result<bool> PostgresqlStandby::has_other_token(const std::string& user, const std::string& name,

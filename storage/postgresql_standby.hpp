@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,10 +40,12 @@ class PostgresqlStandby {
     std::string settings;     ///< likewise (ServerFacts); empty: an older version
     std::uint64_t term = 0;   ///< of the last holder
     bool has_others = false;  ///< other servers wait too
-    LeaseRow lease;           ///< for PostgresqlStoreOptions::ended, where it is lapsed
-    std::string obstacle;     ///< of a lapsed place: who has locked it, for a lease or more
-    std::string identity;     ///< of the database; empty: it has none
-    UtcTime time{};           ///< by the database's clock; only where it has tables
+    /// It was given back by a server that heard no gateway: for one that does.
+    bool is_for_hearers = false;
+    LeaseRow lease;        ///< for PostgresqlStoreOptions::ended, where it is lapsed
+    std::string obstacle;  ///< of a lapsed place: who has locked it, for a lease or more
+    std::string identity;  ///< of the database; empty: it has none
+    UtcTime time{};        ///< by the database's clock; only where it has tables
   };
   /// Connects when it is not connected. A lease is over by the own steady clock (LeaseWatch), so
   /// only when it was looked at again and again for its whole time, and after `kSettle` of a
@@ -64,6 +67,8 @@ class PostgresqlStandby {
                                const std::string& secret);
 
   static constexpr std::chrono::milliseconds kSettle{3000};
+  /// The gateways that this server hears; nullopt: it does not listen. From the next look on.
+  void set_gateways(std::optional<std::int64_t> gateways) { gateways_ = gateways; }
 
  private:
   struct Connection;
@@ -76,6 +81,7 @@ class PostgresqlStandby {
   const Options options_;
   bool is_able_ = true;
   std::string note_;
+  std::optional<std::int64_t> gateways_;
   LeaseWatch watch_;
   std::unique_ptr<Connection> connection_;  ///< null: not connected
 };

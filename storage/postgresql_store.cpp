@@ -5,6 +5,7 @@
 #include "storage/impl/waiting_rows.hpp"
 #include "storage/postgresql/database.hpp"
 #include "storage/postgresql/url.hpp"
+#include "storage/sql/query.hpp"
 
 namespace dripline::storage {
 
@@ -82,7 +83,28 @@ Result<void> PostgresqlStore::publish(const ServerFacts& facts) {
 
 Result<std::vector<WaitingServer>> PostgresqlStore::waiting() {
   return parts_->connections->read(
-      [](sql::Database& database) { return waiting_servers(database, ""); });
+      [](sql::Database& database) { return waiting_servers(database); });
+}
+
+Result<OwnHandOvers> PostgresqlStore::own_hand_overs() {
+  return parts_->connections->read([](sql::Database& database) -> Result<OwnHandOvers> {
+    const auto row =
+        sql::first_row(database, "SELECT own_hand_overs, has_helped FROM store_holder WHERE id = 1",
+                       [](const sql::Statement& found) {
+                         return OwnHandOvers{.count = static_cast<std::uint64_t>(found.integer(0)),
+                                             .has_helped = found.integer(1) != 0};
+                       });
+    if (!row) return fail(row.error());
+    return row->value_or(OwnHandOvers{});
+  });
+}
+
+Result<void> PostgresqlStore::note_own_hand_overs(const OwnHandOvers& noted) {
+  return parts_->connections->write([&](sql::Database& database) {
+    return sql::run(database,
+                    "UPDATE store_holder SET own_hand_overs = ?1, has_helped = ?2 WHERE id = 1",
+                    static_cast<std::int64_t>(noted.count), noted.has_helped ? 1 : 0);
+  });
 }
 
 Result<bool> holds_password(const std::string& url) {

@@ -76,6 +76,8 @@ class PostgresqlStore final : public OpenedStore {
   void give_back() override;
   Result<void> publish(const ServerFacts& facts) override;
   Result<std::vector<WaitingServer>> waiting() override;
+  Result<OwnHandOvers> own_hand_overs() override;
+  Result<void> note_own_hand_overs(const OwnHandOvers& noted) override;
 
  private:
   struct Parts;

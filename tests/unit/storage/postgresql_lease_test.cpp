@@ -169,5 +169,37 @@ TEST_F(PostgresqlLeaseTest, AServerThatDoesNotWaitAnyMoreIsNotListed) {
   EXPECT_EQ(store_->waiting()->size(), 1u);
 }
 
+/// The active server must know whether machines are there for the one that waits.
+TEST_F(PostgresqlLeaseTest, AServerThatWaitsSaysHowManyGatewaysItHears) {
+  auto watcher = standby();
+  ASSERT_TRUE(watcher.look());
+  const auto gateways = [&] {
+    const auto waiting = store_->waiting();
+    EXPECT_TRUE(waiting && waiting->size() == 1);
+    return waiting && waiting->size() == 1 ? waiting->front().gateways : std::nullopt;
+  };
+  EXPECT_EQ(gateways(), std::nullopt);
+  for (const int count : {3, 0}) {
+    watcher.set_gateways(count);
+    ASSERT_TRUE(watcher.look());
+    EXPECT_EQ(gateways(), static_cast<std::uint64_t>(count)) << "at once, and not only each second";
+  }
+  watcher.set_gateways(std::nullopt);
+  ASSERT_TRUE(watcher.look());
+  EXPECT_EQ(gateways(), std::nullopt) << "it does not listen any more";
+}
+
+TEST_F(PostgresqlLeaseTest, HandOversOfServersAreKeptForTheNextOne) {
+  EXPECT_EQ(*store_->own_hand_overs(), OwnHandOvers{});
+  auto watcher = standby();
+  ASSERT_TRUE(store_->note_own_hand_overs({.count = 2, .has_helped = false}));
+  EXPECT_FALSE(watcher.look()->is_for_hearers) << "it is not free";
+  store_.reset();
+  EXPECT_TRUE(watcher.look()->is_for_hearers);
+  const auto next = open_another();
+  ASSERT_TRUE(next) << next.error().what;
+  EXPECT_EQ(*(*next)->own_hand_overs(), (OwnHandOvers{2, false}));
+}
+
 }  // namespace
 }  // namespace dripline::storage
