@@ -38,6 +38,13 @@ TEST(SharedSettings, OfAnotherNetworkForbidATakeover) {
                    "dds-tag is trial, and none at the active server"}));
 }
 
+/// Each server measures by its own: people think that both are the same.
+TEST(SharedSettings, OfOtherTimesOfATakeoverAreNamed) {
+  Settings own;
+  own.takeover_s = 5;
+  EXPECT_EQ(difference_of(own, {}).others, (Texts{"takeover-s is 5, and 3 at the active server"}));
+}
+
 /// The same policy may be another file; a policy that is missing lets everything run.
 TEST(SharedSettings, CompareThePolicyByItsText) {
   const test_support::TemporaryFolder folder;
