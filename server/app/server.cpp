@@ -56,6 +56,7 @@ Result<void> Server::end() {
   const auto until = std::chrono::steady_clock::now() + kFolderEnd;
   parts_->folders.request_end();
   parts_->check.request_stop();
+  parts_->cut_off.reset();
   parts_->watch.reset();  // it may announce
   parts_->folder.withdraw();
   if (parts_->fetcher) parts_->fetcher->end();
@@ -181,6 +182,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
       .url = parts.url, .dds_domain = settings.dds_domain, .dds_tag = settings.dds_tag};
   parts.announce();
   parts.publish();
+  if (auto begun = parts.watch_gateways(settings); !begun) return fail(begun.error());
   parts.folders.begin();  // last: a start that fails waits for no share
   return server;
 }

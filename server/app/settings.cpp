@@ -160,6 +160,10 @@ constexpr std::array kRows{
         "With --store: let another server take over when this one has not renewed its place for "
         "so long, by the other one's steady clock",
         number_value<2, 60, &Settings::takeover_s>()},
+    Row{"handover-s", "NUMBER", "s", "",
+        "With standby: hand over to a server that waits when this one has heard no gateway for so "
+        "long and that one hears some; 0: only people hand over",
+        number_value<0, 600, &Settings::handover_s>()},
     Row{"http", "HOST:PORT", "", "", "Address of the REST API; port 0 takes a free one",
         text_value<&Settings::http>()},
     Row{"tls-certificate", "FILE", "", "",

@@ -20,6 +20,7 @@ struct Settings {
   std::uint32_t program_cache_mb = 4096;  ///< of a PostgreSQL database's program text; 0: none
   bool standby = false;                   ///< another server's database: waits for its place
   std::uint32_t takeover_s = 3;  ///< without renewal, and another server may have the place
+  std::uint32_t handover_s = 4;  ///< without gateways, that another server hears; 0: never
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
   std::string tls_client_ca, tls_client_revoked;  ///< files; empty: none

@@ -70,6 +70,7 @@ std::string shared_settings(const Settings& settings) {
   add("dds-tag", or_none(settings.dds_tag));
   add("dds-security", yes_if(!settings.dds_security.empty()));
   add("takeover-s", std::to_string(settings.takeover_s));
+  add("handover-s", std::to_string(settings.handover_s));
   add("policy", policy_of(settings.policy));
   add("folders", folders_of(settings.folders));
   add("mqtt", broker);

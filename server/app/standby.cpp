@@ -8,13 +8,13 @@
 #include <optional>
 #include <utility>
 
-#include "protocol/dds/configuration.hpp"
 #include "protocol/process/log.hpp"
 #include "server/api/metrics_text.hpp"
 #include "server/app/networks.hpp"
 #include "server/app/open_store.hpp"
 #include "server/app/shared_settings.hpp"
 #include "server/app/standby_page.hpp"
+#include "server/app/standby_ports.hpp"
 #include "server/identity/accounts.hpp"
 #include "server/identity/revoked_certificates.hpp"
 #include "server/library/health.hpp"
@@ -28,6 +28,7 @@ using View = storage::PostgresqlStandby::View;
 constexpr int kUnavailable = 503;
 /// After a hand-over another server is waited for; when none has come, this one may have it again.
 constexpr std::chrono::seconds kForOthers{10};
+constexpr std::chrono::seconds kForHearers{5};
 constexpr std::chrono::seconds kPortsEvery{1};
 /// After a try to take over that was in vain: times the number of them, up to so many.
 constexpr std::chrono::milliseconds kLatePause{500};
@@ -71,7 +72,8 @@ struct Standby::Parts {
   std::string signing_key;  ///< public
   api::HttpOptions http;
   std::optional<api::HttpOptions> agent;  ///< of MTConnect
-  dds::NetworkOptions network;
+  StandbyPorts ports;
+  const std::uint32_t cells;
   std::string published_settings;
   storage::PostgresqlStandby database;
   SteadyTime began;
@@ -103,14 +105,14 @@ Result<std::unique_ptr<Standby>> Standby::open(const Settings& settings, const C
   if (!key) return fail(key.error());
   const auto holder = holder_name(*folder);
   if (!holder) return fail(holder.error());
-  std::unique_ptr<Standby> standby(new Standby(std::unique_ptr<Parts>(
-      new Parts{settings, clock, options, *folder, *std::move(lock), key->public_key().hex(), *http,
-                *std::move(agent), *std::move(network), shared_settings(settings),
-                storage::PostgresqlStandby({.url = settings.store,
-                                            .holder = *holder,
-                                            .described = description(*folder),
-                                            .lease = std::chrono::seconds(settings.takeover_s)}),
-                clock.steady_now()})));
+  std::unique_ptr<Standby> standby(new Standby(std::unique_ptr<Parts>(new Parts{
+      settings, clock, options, *folder, *std::move(lock), key->public_key().hex(), *http,
+      *std::move(agent), StandbyPorts(*network), network->cells, shared_settings(settings),
+      storage::PostgresqlStandby({.url = settings.store,
+                                  .holder = *holder,
+                                  .described = description(*folder),
+                                  .lease = std::chrono::seconds(settings.takeover_s)}),
+      clock.steady_now()})));
   auto view = standby->parts_->database.look();
   if (!view) return fail(view.error());
   if (auto fits = standby->check(*view); !fits) return fail(fits.error());
@@ -164,6 +166,15 @@ bool Standby::is_for_others(const View& view) const {
   return view.has_others || waited < kForOthers;
 }
 
+/// One that hears gateways is quicker.
+bool Standby::is_for_hearers(const View& view) {
+  const SteadyTime now = parts_->clock.steady_now();
+  if (!view.is_for_hearers) hearers_since_.reset();
+  if (!view.is_for_hearers || parts_->ports.gateways(now).value_or(0) > 0) return false;
+  if (!hearers_since_) hearers_since_ = now;
+  return now - *hearers_since_ < kForHearers;
+}
+
 bool Standby::is_pausing() const {
   const int pauses = std::min(parts_->options.late - 1, kMaxLatePauses);  // the first is at once
   return parts_->clock.steady_now() - parts_->began < std::max(pauses, 0) * kLatePause;
@@ -171,6 +182,8 @@ bool Standby::is_pausing() const {
 
 Result<bool> Standby::look() {
   const UtcTime before = parts_->clock.now();
+  parts_->ports.receive(parts_->clock.steady_now());
+  parts_->database.set_gateways(parts_->ports.gateways(parts_->clock.steady_now()));
   auto view = parts_->database.look();
   if (!view) {
     const bool is_final = view.error().code == Errc::Unsupported;
@@ -187,8 +200,8 @@ Result<bool> Standby::look() {
   look_at_place(*view);
   look_at_settings(*view);
   look_at_clock(before, *view);
-  const bool is_free =
-      view->is_free && !is_for_others(*view) && !is_pausing() && faults_.network.empty();
+  const bool is_free = view->is_free && !is_for_others(*view) && !is_for_hearers(*view) &&
+                       !is_pausing() && faults_.network.empty();
   const bool is_due = has_ports(is_free) && is_free;
   const std::lock_guard lock(mutex_);
   if (!std::exchange(faults_.database, "").empty()) process::log_info("the database answers again");
@@ -199,11 +212,11 @@ Result<bool> Standby::look() {
 }
 
 Result<void> Standby::check_ports() const {
-  const auto free = dds::check_ports(parts_->network);
+  const auto free = parts_->ports.check();
   if (free) return {};
   return fail(Errc::Busy,
               "{}: two servers on one computer need a --dds-port each, {} apart or more",
-              free.error().what, 2 * parts_->network.cells);
+              free.error().what, 2 * parts_->cells);
 }
 
 /// Said when it begins and when it is over. One thread writes; the answers read.

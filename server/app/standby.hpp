@@ -19,8 +19,9 @@ namespace dripline::app {
 
 /// A server that waits for another one's database: everything that needs no place is checked as at
 /// a start, health and readiness are answered, and whether the place is free is looked at some
-/// times a second. No gateway, port, hot folder, webhook or broker is touched. One thread, but for
-/// the answers.
+/// times a second. No serial port, hot folder, webhook or broker is touched, and gateways are only
+/// listened to: how many it hears is what the active server sees of it. One thread, but for the
+/// answers.
 class Standby {
  public:
   struct Options {
@@ -70,6 +71,7 @@ class Standby {
   Result<void> check(const storage::PostgresqlStandby::View& view) const;
   Result<void> check_token(const std::string& token) const;
   bool is_for_others(const storage::PostgresqlStandby::View& view) const;
+  bool is_for_hearers(const storage::PostgresqlStandby::View& view);
   bool is_pausing() const;
   void look_at_place(const storage::PostgresqlStandby::View& view);
   bool has_ports(bool is_due);
@@ -86,7 +88,8 @@ class Standby {
   storage::PostgresqlStandby::View view_;  ///< the last
   StandbyFaults faults_;
   SteadyTime ports_seen_{};
-  std::unique_ptr<api::HttpServer> http_;  // last: its threads use the others
+  std::optional<SteadyTime> hearers_since_;  ///< the place is free for a server that hears gateways
+  std::unique_ptr<api::HttpServer> http_;    // last: its threads use the others
 };
 
 }  // namespace dripline::app

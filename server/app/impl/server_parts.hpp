@@ -10,6 +10,7 @@
 
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
+#include "server/app/impl/cut_off_watch.hpp"
 #include "server/app/impl/lost_machines.hpp"
 #include "server/app/networks.hpp"
 #include "server/app/open_store.hpp"
@@ -108,6 +109,10 @@ struct ServerParts {
   /// Who waits for the database. Errors: Unsupported, Conflict (no server does), Busy (a serial
   /// line is at work, which a hand-over would end).
   Result<std::vector<std::string>> hand_over();
+  /// That no serial line is at work. Errors: Busy.
+  Result<void> check_lines_free();
+  /// Where other servers wait: hands over when this one is cut off from all gateways.
+  Result<void> watch_gateways(const Settings& settings);
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
   /// again.
   Result<void> look();
@@ -179,6 +184,7 @@ struct ServerParts {
   api::Api api;
   web::Page page{web::embedded_assets()};
   std::unique_ptr<library::HealthWatch> watch;
+  std::unique_ptr<CutOffWatch> cut_off;  ///< null: no server waits
   std::unique_ptr<api::HttpServer> http;
   std::unique_ptr<api::HttpServer> mtconnect_http;
   std::string url, mtconnect_url;

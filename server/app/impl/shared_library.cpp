@@ -41,6 +41,16 @@ Result<std::vector<std::string>> awake_standbys(storage::OpenedStore& store) {
   }
 }
 
+std::string name_of(const storage::WaitingServer& server) {
+  if (!server.gateways) return server.described;
+  return fmt::format("{}; hears {} gateway{}", server.described, *server.gateways,
+                     *server.gateways == 1 ? "" : "s");
+}
+
+bool has_gateway(const machines::MachineView& view) {
+  return !view.machine.gateway_version.empty();
+}
+
 }  // namespace
 
 std::optional<api::SharedLibrary> ServerParts::shared_library() {
@@ -51,7 +61,7 @@ std::optional<api::SharedLibrary> ServerParts::shared_library() {
                               const auto waiting = store->waiting();
                               if (!waiting) return fail(waiting.error());
                               std::vector<std::string> names;
-                              for (const auto& server : *waiting) names.push_back(server.described);
+                              for (const auto& server : *waiting) names.push_back(name_of(server));
                               return names;
                             },
                             .hand_over = [this] { return hand_over(); },
@@ -75,7 +85,34 @@ void ServerParts::publish() {
                          published.error().what);
 }
 
-Result<std::vector<std::string>> ServerParts::hand_over() {
+Result<void> ServerParts::watch_gateways(const Settings& settings) {
+  if (!settings.standby || store->term() == 0) return {};
+  const auto before = store->own_hand_overs();
+  if (!before) return fail(before.error());
+  cut_off = std::make_unique<CutOffWatch>(
+      CutOffWatch::Parts{
+          .store = *store,
+          .health = health,
+          .audit = audit,
+          .clock = clock,
+          .server = host_name(),
+          .heard = [this] { return machine_service.heard_gateways(); },
+          .is_machine_known =
+              [this] { return std::ranges::any_of(machines.machines(), has_gateway); },
+          .check_free = [this] { return check_lines_free(); },
+          .leave =
+              [this] {
+                if (on_handed_over) on_handed_over();
+              }},
+      CutOffRule::Options{.silence = std::chrono::seconds(settings.handover_s),
+                          .lease = std::chrono::milliseconds(settings.lease_ms),
+                          .before = *before,
+                          .began = clock.steady_now()});
+  cut_off->begin();
+  return {};
+}
+
+Result<void> ServerParts::check_lines_free() {
   for (const auto& view : ports.ports()) {
     storage::RunFilter active;
     active.machine = view.port.machine;
@@ -95,7 +132,16 @@ Result<std::vector<std::string>> ServerParts::hand_over() {
                   idle.error().what, view.port.name);
     }
   }
-  return awake_standbys(*store);
+  return {};
+}
+
+/// A person has looked: what servers did on their own before matters no more.
+Result<std::vector<std::string>> ServerParts::hand_over() {
+  if (auto free = check_lines_free(); !free) return fail(free.error());
+  auto awake = awake_standbys(*store);
+  if (!awake) return awake;
+  if (auto noted = store->note_own_hand_overs({}); !noted) return fail(noted.error());
+  return awake;
 }
 
 }  // namespace dripline::app

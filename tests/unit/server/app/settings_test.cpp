@@ -162,6 +162,8 @@ TEST(Settings, AStandbyIsAskedFor) {
   EXPECT_EQ(asked.takeover_s, 10u);
   EXPECT_EQ(asked.dds_port, 9000u);
   EXPECT_EQ(read({"--takeover-s", "1"}).exit_code, 2);
+  EXPECT_EQ(read({}).settings.handover_s, 4u);
+  EXPECT_EQ(read({"--handover-s", "0"}).settings.handover_s, 0u) << "never";
   EXPECT_EQ(read({"--dds-port", "65536"}).exit_code, 2);
 }
 

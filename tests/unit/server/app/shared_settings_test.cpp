@@ -42,7 +42,9 @@ TEST(SharedSettings, OfAnotherNetworkForbidATakeover) {
 TEST(SharedSettings, OfOtherTimesOfATakeoverAreNamed) {
   Settings own;
   own.takeover_s = 5;
-  EXPECT_EQ(difference_of(own, {}).others, (Texts{"takeover-s is 5, and 3 at the active server"}));
+  own.handover_s = 0;
+  EXPECT_EQ(difference_of(own, {}).others, (Texts{"handover-s is 0, and 4 at the active server",
+                                                  "takeover-s is 5, and 3 at the active server"}));
 }
 
 /// The same policy may be another file; a policy that is missing lets everything run.
