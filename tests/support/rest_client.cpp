@@ -3,6 +3,8 @@
 #include <httplib.h>
 #include <csignal>
 
+#include "tests/support/network_namespace.hpp"
+
 namespace dripline::test_support {
 namespace {
 
@@ -21,13 +23,14 @@ RestClient::Reply reply(const httplib::Result& result) {
 
 }  // namespace
 
-RestClient::RestClient(std::string url, std::string token)
-    : url_(std::move(url)), token_(std::move(token)) {
+RestClient::RestClient(std::string url, std::string token, std::string network)
+    : url_(std::move(url)), token_(std::move(token)), network_(std::move(network)) {
   std::signal(SIGPIPE, SIG_IGN);  // a server that is gone fails the request, not the test's process
 }
 
 RestClient::Reply RestClient::get(const std::string& path,
                                   const std::multimap<std::string, std::string>& headers) const {
+  const InNetwork inside(network_);
   return reply(connect(url_, token_).Get(path, httplib::Headers(headers.begin(), headers.end())));
 }
 
@@ -36,14 +39,17 @@ RestClient::Reply RestClient::post(const std::string& path, const nlohmann::json
 }
 
 RestClient::Reply RestClient::post_text(const std::string& path, const std::string& body) const {
+  const InNetwork inside(network_);
   return reply(connect(url_, token_).Post(path, body, "application/json"));
 }
 
 RestClient::Reply RestClient::put_bytes(const std::string& path, const std::string& bytes) const {
+  const InNetwork inside(network_);
   return reply(connect(url_, token_).Put(path, bytes, "application/octet-stream"));
 }
 
 RestClient::Reply RestClient::remove(const std::string& path) const {
+  const InNetwork inside(network_);
   return reply(connect(url_, token_).Delete(path));
 }
 

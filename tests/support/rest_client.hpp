@@ -18,7 +18,8 @@ class RestClient {
     nlohmann::json json() const { return nlohmann::json::parse(body, nullptr, false); }
   };
 
-  RestClient(std::string url, std::string token);
+  /// `network`: path of the network namespace that it asks from; empty: the caller's.
+  RestClient(std::string url, std::string token, std::string network = {});
   const std::string& url() const { return url_; }
   Reply get(const std::string& path,
             const std::multimap<std::string, std::string>& headers = {}) const;
@@ -30,6 +31,7 @@ class RestClient {
  private:
   std::string url_;
   std::string token_;
+  std::string network_;
 };
 
 }  // namespace dripline::test_support

@@ -12,6 +12,7 @@
 
 #include "gateway/app/panel/panel_socket.hpp"
 #include "tests/integration/system.hpp"
+#include "tests/support/network_namespace.hpp"
 
 namespace dripline::integration {
 
@@ -67,11 +68,19 @@ void TwoServers::start(int server) {
   command.insert(command.end(), options_.arguments.begin(), options_.arguments.end());
   const auto& own = options_.second_arguments;
   if (server == 1) command.insert(command.end(), own.begin(), own.end());
+  const auto network = network_arguments();
+  command.insert(command.end(), network.begin(), network.end());
+  const test_support::InNetwork inside(server == 0 ? options_.first_network : "");
   servers_[number].emplace(command, folder() / (name(server) + ".out"));
   ASSERT_TRUE(eventually([&] { return !role(server).empty(); })) << output(server) << log(server);
   const std::string url = rest(server).url();
   http_ports_[number] =
       static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));  // as in a shop
+}
+
+std::vector<std::string> TwoServers::network_arguments() const {
+  if (options_.interface == "lo") return {};
+  return {"--dds-interface", options_.interface, "--dds-open-network", "yes"};
 }
 
 void TwoServers::share_keys() {
@@ -83,29 +92,32 @@ void TwoServers::share_keys() {
 
 void TwoServers::start_gateway() {
   gateway_.reset();
-  gateway_.emplace(
-      std::vector<std::string>{program_path("dncgw"),
-                               "--machine",
-                               "lathe-1",
-                               "--control",
-                               "centurion",
-                               "--state",
-                               gateway_state(),
-                               "--speed",
-                               options_.speed,
-                               "--log",
-                               folder() / "gateway.log",
-                               "--server",
-                               fmt::format("127.0.0.1:{},127.0.0.1:{}", dds_port(0), dds_port(1)),
-                               "--dds-domain",
-                               std::to_string(domain_),
-                               "--dds-tag",
-                               tag_,
-                               "--discovery-interval-ms",
-                               "100",
-                               "--lease-ms",
-                               "1500"},
-      folder() / "gateway.out");
+  std::vector<std::string> command{program_path("dncgw"),
+                                   "--machine",
+                                   "lathe-1",
+                                   "--control",
+                                   "centurion",
+                                   "--state",
+                                   gateway_state(),
+                                   "--speed",
+                                   options_.speed,
+                                   "--log",
+                                   folder() / "gateway.log",
+                                   "--server",
+                                   fmt::format("{}:{},{}:{}", options_.addresses[0], dds_port(0),
+                                               options_.addresses[1], dds_port(1)),
+
+                                   "--dds-domain",
+                                   std::to_string(domain_),
+                                   "--dds-tag",
+                                   tag_,
+                                   "--discovery-interval-ms",
+                                   "100",
+                                   "--lease-ms",
+                                   "1500"};
+  const auto network = network_arguments();
+  command.insert(command.end(), network.begin(), network.end());
+  gateway_.emplace(command, folder() / "gateway.out");
 }
 
 RestClient TwoServers::rest(int server) const {
@@ -113,7 +125,7 @@ RestClient TwoServers::rest(int server) const {
   const std::string url = json.is_object() ? json.value("url", "") : "http://127.0.0.1:1";
   std::string token = text_of(state(server) / "token");
   while (!token.empty() && token.back() == '\n') token.pop_back();
-  return RestClient(url, token);
+  return RestClient(url, token, server == 0 ? options_.first_network : "");
 }
 
 void TwoServers::freeze(int server) {

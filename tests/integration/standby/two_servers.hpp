@@ -24,6 +24,11 @@ class TwoServers {
     std::string speed = "20x";
     std::vector<std::string> arguments = {};         ///< of both servers
     std::vector<std::string> second_arguments = {};  ///< of the second one
+    /// Where gateways reach them, and by which interface of theirs. The gateway has the second
+    /// one's.
+    std::array<std::string, 2> addresses = {"127.0.0.1", "127.0.0.1"};
+    std::string interface = "lo";
+    std::string first_network = {};  ///< namespace of the first one; empty: the caller's
   };
   explicit TwoServers(Options options);
 
@@ -61,6 +66,7 @@ class TwoServers {
 
  private:
   static std::size_t at(int server) { return static_cast<std::size_t>(server); }
+  std::vector<std::string> network_arguments() const;
   static std::string name(int server) { return server == 0 ? "a" : "b"; }
 
   test_support::TemporaryFolder folder_;

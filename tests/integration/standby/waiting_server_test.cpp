@@ -96,7 +96,8 @@ TEST_F(WaitingServer, WaitsForAPortThatAnotherProgramHasTakenMeanwhile) {
   std::optional<Descriptor> other(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   sockaddr_in place{};
   place.sin_family = AF_INET;
-  place.sin_port = htons(shop_->dds_port(1));
+  place.sin_port =
+      htons(static_cast<std::uint16_t>(shop_->dds_port(1) + 1));  // the first is its own
   ASSERT_EQ(::bind(other->get(), reinterpret_cast<sockaddr*>(&place), sizeof place), 0);
   const auto standbys = [&] {
     return shop_->rest(0).get("/api/v1/server").json()["sharing"]["standbys"].size();
@@ -117,7 +118,7 @@ TEST_F(WaitingServer, WaitsForAPortThatAnotherProgramHasTakenMeanwhile) {
   EXPECT_NE(health.body.find("a UDP port that this server needs"), std::string::npos)
       << health.body;
   EXPECT_NE(shop_->log(1).find(fmt::format("cannot take over: DDS domain {}: UDP port {} is in use",
-                                           shop_->domain(), shop_->dds_port(1))),
+                                           shop_->domain(), shop_->dds_port(1) + 1)),
             std::string::npos)
       << shop_->log(1);
   other.reset();
@@ -234,6 +235,20 @@ TEST_F(WaitingServer, SaysThatItsSettingsAreNotThoseOfTheActiveOne) {
   EXPECT_NE(health.body.find("\"settings\""), std::string::npos) << health.body;
   EXPECT_EQ(health.body.find("sha256"), std::string::npos) << health.body;
   EXPECT_NE(shop_->log(1).find("policy is sha256 "), std::string::npos) << shop_->log(1);
+}
+
+/// A dead server would be noticed at another time than people think.
+TEST_F(WaitingServer, SaysThatItsTakeoverTimeIsNotThatOfTheActiveOne) {
+  shop_.emplace(TwoServers::Options{.stores = {store('a'), store('b')},
+                                    .second_arguments = {"--takeover-s", "5"}});
+  start_both();
+  const std::string difference = "takeover-s is 5, and 3 at the active server";
+  EXPECT_TRUE(test_support::eventually([&] {
+    return shop_->rest(0).get("/api/v1/server").body.find(difference) != std::string::npos;
+  })) << shop_->log(0);
+  EXPECT_NE(shop_->log(1).find(difference), std::string::npos) << shop_->log(1);
+  const auto health = shop_->rest(1).get("/api/v1/health");
+  EXPECT_EQ(health.json().value("status", ""), "degraded") << health.body;
 }
 
 /// Nobody can have the place then: the one that waits says which row is missing.
