@@ -94,9 +94,11 @@ Gateway::Gateway(Parts parts)
       .machine = *machine_,
       .run = run_,
       .clock = parts_.clock,
-      .begin_run = [this](const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed) {
-        return loop_.begin(run, std::move(feed), {});
-      }});
+      .begin_run =
+          [this](const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed) {
+            return loop_.begin(run, std::move(feed), {});
+          },
+      .doubt = StateMark(parts_.line_doubt)});
 }
 
 Result<void> Gateway::recover() {

@@ -34,9 +34,10 @@ class Gateway final : public MachineGateway {
     report::MotionJournal* motion_journal = nullptr;  ///< null: a machine that is ahead of nothing
     ExecutionProbe& execution_probe;
     const Clock& clock;
-    machine::MotionFactory make_motion;  ///< makes what moves the machine
-    std::uint64_t session = 0;           ///< of this process, not zero
-    feed::ControlLine* line = nullptr;   ///< programs come from it instead of the server
+    machine::MotionFactory make_motion;     ///< makes what moves the machine
+    std::uint64_t session = 0;              ///< of this process, not zero
+    feed::ControlLine* line = nullptr;      ///< programs come from it instead of the server
+    std::filesystem::path line_doubt = {};  ///< LineOperator::Parts::doubt
     /// What waits from the machine's panel, while recover keeps the inbox waiting.
     std::function<std::vector<PanelRequest>()> take_panel = [] {
       return std::vector<PanelRequest>();

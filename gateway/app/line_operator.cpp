@@ -73,6 +73,12 @@ bool is_beginning(std::string_view text) {
 
 }  // namespace
 
+LineOperator::LineOperator(Parts parts)
+    : parts_(std::move(parts)),
+      losses_(parts_.line.address()),
+      is_in_doubt_(parts_.doubt.is_set() && !is_framed(parts_.line.settings())),
+      request_(parts_.request) {}
+
 void LineOperator::poll(SteadyTime now) {
   const bool is_stopped = parts_.machine.panel().emergency_stop;
   if (state_ == State::Closed && !is_stopped) listen(true);
@@ -176,7 +182,13 @@ void LineOperator::take_text(std::string_view text) {
 void LineOperator::begin_text() {
   const bool is_rest = is_in_doubt_ && !is_beginning(head_);
   if (is_rest) set_fault(kNeedsReset);
-  if (!is_rest && begin_run()) return;
+  if (!is_rest) {
+    const auto begun = begin_run();
+    if (begun) return;
+    process::log_error("text from line {} begins no run: {} {}", address(), begun.error().what,
+                       parts_.run.label());
+    parts_.run.last_message = valid_text(begun.error().what, kMaxReason);
+  }
   doubt_text();
   state_ = State::Draining;
   parts_.line.abort();
@@ -184,11 +196,18 @@ void LineOperator::begin_text() {
 
 void LineOperator::doubt_text() {
   is_in_doubt_ = !is_framed(parts_.line.settings());
+  if (is_in_doubt_) keep_doubt(true);
+}
+
+void LineOperator::keep_doubt(bool is_in_doubt) const {
+  const auto kept = is_in_doubt ? parts_.doubt.set() : parts_.doubt.clear();
+  if (!kept) process::log_error("{} {}", kept.error().what, parts_.run.label());
 }
 
 /// The line listens again from `poll`.
 bool LineOperator::reset() {
   if (!std::exchange(is_in_doubt_, false)) return false;
+  keep_doubt(false);
   fault_.clear();
   logged_faults_.clear();
   if (state_ == State::Locked) state_ = State::Closed;
@@ -229,7 +248,8 @@ void LineOperator::fail_text(const std::string& reason) {
   }
 }
 
-bool LineOperator::begin_run() {
+/// What the next life has to know is on disk before the first block.
+Result<void> LineOperator::begin_run() {
   const bool is_named = check_program_name(program_).has_value();
   const report::ActiveRun run{.run = "line-" + random_hex(8),
                               .program = is_named ? program_ : "line",
@@ -237,19 +257,17 @@ bool LineOperator::begin_run() {
                               .control = parts_.control};
   auto feed = std::make_unique<feed::LineFeed>();
   auto* raw = feed.get();
-  if (const auto done = parts_.begin_run(run, std::move(feed)); !done) {
-    process::log_error("program {} from line {} not begun: {} {}", run.program, address(),
-                       done.error().what, parts_.run.label());
-    parts_.run.last_message = valid_text(done.error().what, kMaxReason);
-    return false;
+  if (!is_framed(parts_.line.settings())) {
+    if (auto kept = parts_.doubt.set(); !kept) return kept;
   }
+  if (auto done = parts_.begin_run(run, std::move(feed)); !done) return done;
   if (request_ != kNext) request_.clear();  // asked for until it has arrived
   feed_ = raw;
   released_ = 0;
   state_ = State::Feeding;
   is_in_doubt_ = false;
   process::log_info("run begins with text from line {} {}", address(), parts_.run.label());
-  return true;
+  return {};
 }
 
 /// Asks the host for a program where this control does so, or waits for one.
@@ -277,7 +295,8 @@ void LineOperator::on_run_over() {
   const bool is_complete = state_ == State::Complete;
   const bool is_completed = parts_.run.last_execution == dds::Execution::ProgramCompleted;
   if (!is_complete && !is_completed) parts_.line.abort();
-  if (!is_completed && (!is_complete || is_tape(parts_.line.settings()))) doubt_text();
+  const bool is_cut = !is_completed && (!is_complete || is_tape(parts_.line.settings()));
+  is_cut ? doubt_text() : keep_doubt(false);
   state_ = is_complete ? State::Closed : State::Draining;
   listen_at_.reset();
   if (is_complete) listen_at_ = parts_.clock.steady_now();

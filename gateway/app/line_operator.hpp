@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gateway/app/run/run_session.hpp"
+#include "gateway/app/state_mark.hpp"
 #include "gateway/feed/control_line.hpp"
 #include "gateway/feed/line_feed.hpp"
 #include "gateway/line/loss_log.hpp"
@@ -27,17 +28,18 @@ class LineOperator {
     const Clock& clock;
     std::function<Result<void>(const report::ActiveRun&, std::unique_ptr<feed::ProgramFeed>)>
         begin_run;
+    /// The text of a run has begun, and has not gone through: what comes next may be its rest.
+    StateMark doubt = StateMark({});
   };
   /// All references must outlive it.
-  explicit LineOperator(Parts parts)
-      : parts_(std::move(parts)), losses_(parts_.line.address()), request_(parts_.request) {}
+  explicit LineOperator(Parts parts);
 
   void poll(SteadyTime now);
   /// When to be called again at the latest; none: when the line has something.
   std::optional<SteadyTime> next_poll(SteadyTime now) const;
   /// The run's session is gone.
   void on_run_over();
-  /// The run before this process was cut off: the host may be in the middle of its text.
+  /// A run was cut off: the host may be in the middle of its text, also in the next life.
   void doubt_text();
   /// The operator's reset, at the panel: the next text begins a run, however it begins. False: no
   /// text waits for that.
@@ -66,7 +68,8 @@ class LineOperator {
   void drop_head();
   void end_text();
   void fail_text(const std::string& reason);
-  bool begin_run();
+  Result<void> begin_run();
+  void keep_doubt(bool is_in_doubt) const;
   void listen(bool may_ask);
   void release();
   void set_fault(std::string_view reason);

@@ -145,6 +145,7 @@ Result<void> run(const GatewayOptions& options) {
                    .make_motion = *std::move(motion),
                    .session = around.session,
                    .line = line->get(),
+                   .line_doubt = around.folder.line_doubt(),
                    .take_panel = [&around] { return around.inbox.take_panel(); }});
   return around.run(gateway);
 }

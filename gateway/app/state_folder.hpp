@@ -21,6 +21,7 @@ class StateFolder {
   std::filesystem::path recordings() const { return folder_ / "recordings"; }
   std::filesystem::path uploads() const { return folder_ / "uploads"; }
   std::filesystem::path kept_transfer() const { return folder_ / "line-transfer.json"; }
+  std::filesystem::path line_doubt() const { return folder_ / "line-text-open"; }
 
  private:
   StateFolder(std::filesystem::path folder, FileLock lock)

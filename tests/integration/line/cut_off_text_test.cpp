@@ -114,6 +114,26 @@ TEST_F(CutOffProgram, IsContinuedByNoRun) {
   EXPECT_EQ(gateway_.outputs(), std::vector<std::string>{"DONE"});
 }
 
+/// The rest of a program whose run ended with its gateway: after any number of lives.
+TEST_F(CutOffProgram, IsContinuedByNoRunOfALaterLife) {
+  host_.send("O0077\nG20 G98\nG1 X1. F.1\n");
+  ASSERT_TRUE(gateway_.wait_logged(kBegins)) << gateway_.log();
+  ASSERT_TRUE(eventually([&] { return host_.is_idle(); }));
+  gateway_.restart(false);
+  leave_out_rest();
+  gateway_.restart(true);
+  gateway_.restart(false);
+  host_.send("G1 X3. F50.\nX4.\n");
+  ASSERT_TRUE(gateway_.wait_logged("begins no run", 2)) << gateway_.log();
+  EXPECT_EQ(cycle_start(gateway_), "ok the next text of the line begins a run\n");
+  gateway_.restart(false);
+  ASSERT_TRUE(eventually([&] { return host_.is_idle(); }));
+  std::this_thread::sleep_for(2s);
+  host_.send("G20 G98\nPOPEN P1\nDPRNT [DONE]\nPCLOS\nM30\n");
+  ASSERT_TRUE(gateway_.wait_ended(2)) << gateway_.log();
+  EXPECT_EQ(gateway_.outputs(), std::vector<std::string>{"DONE"});
+}
+
 TEST_F(CutOffProgram, IsContinuedAfterCycleStart) {
   cut_off();
   leave_out_rest();

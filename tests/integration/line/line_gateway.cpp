@@ -49,6 +49,19 @@ void LineGateway::start() {
   EXPECT_TRUE(wait_logged("is open")) << gateway_->output();
 }
 
+void LineGateway::restart(bool is_killed) {
+  const std::size_t opened = logged("is open");
+  if (is_killed) {
+    gateway_->kill();
+  } else {
+    gateway_->signal(SIGTERM);
+    EXPECT_EQ(gateway_->wait(), 0) << log();
+  }
+  gateway_.reset();
+  start();
+  EXPECT_TRUE(wait_logged("is open", opened + 1)) << log();
+}
+
 std::string LineGateway::log() const {
   std::ifstream file(folder_.path() / "log", std::ios::binary);
   std::ostringstream text;

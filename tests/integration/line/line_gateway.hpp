@@ -35,6 +35,8 @@ class LineGateway {
   /// The gateway's state folder, where its panel is.
   std::filesystem::path state() const { return folder_.path() / "gw"; }
 
+  /// Ends the process, by SIGTERM or as a loss of power does, and begins the next one.
+  void restart(bool is_killed);
   /// Stops the gateway and reads what it kept for a server.
   const std::vector<dds::Record>& records();
   /// How the runs ended, in order.
