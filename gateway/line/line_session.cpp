@@ -154,6 +154,7 @@ void LineSession::note_offer(std::size_t size) {
 
 void LineSession::count(const wire::LineState& line) {
   if (!sending_ || sending_->waits_for_line) return;
+  sending_->awaits_start = line.awaits_start;
   const std::uint64_t offered = sending_->ledger.offered() - sending_->text.size();
   const std::uint64_t left = is_checked_ ? sending_->accepted : line.text_sent;
   const std::uint64_t before = sending_->ledger.place().bytes;
@@ -162,7 +163,10 @@ void LineSession::count(const wire::LineState& line) {
 }
 
 void LineSession::finish(SendOutcome outcome, std::string reason) {
-  SendEnd end{.progress = *progress(), .outcome = outcome, .reason = std::move(reason)};
+  SendEnd end{.progress = *progress(),
+              .outcome = outcome,
+              .reason = std::move(reason),
+              .may_have_left = !sending_->awaits_start};
   const bool is_in_head = end.progress.sent.bytes == 0 && sending_->ledger.left() > 0;
   if (outcome != SendOutcome::Completed && is_in_head) end.reason += fmt::format("; {}", kHeadLeft);
   sending_.reset();
@@ -299,8 +303,8 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     }
   } else if (const auto* request = std::get_if<wire::TransferRequest>(&event)) {
     host_.on_request(*request);
-  } else if (std::get_if<wire::ReleaseRefused>(&event) != nullptr) {
-    host_.on_release_refused();
+  } else if (const auto* refused = std::get_if<wire::ReleaseRefused>(&event)) {
+    host_.on_release_refused(*refused);
   }
 }
 

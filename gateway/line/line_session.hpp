@@ -56,6 +56,7 @@ struct SendEnd {
   SendProgress progress;
   SendOutcome outcome = SendOutcome::Completed;
   std::string reason;
+  bool may_have_left = true;  ///< a part of it; it did not wait for the control's start to its end
 };
 
 /// What the control sends, in order. Received text ends with Ended or Failed.
@@ -85,8 +86,7 @@ class SessionHost {
   /// Answered with LineSession::kept once it is where it stays.
   virtual void on_incoming(Incoming incoming) = 0;
   virtual void on_request(const wire::TransferRequest& request) = 0;
-  /// The control knows that what it was in the middle of was broken off (wire::ReleaseRefused).
-  virtual void on_release_refused() {}
+  virtual void on_release_refused(const wire::ReleaseRefused& /*refused*/) {}
   virtual void on_fault(const Error& error) = 0;
   /// Of the job on the line: before more of it may leave, and when more was sent.
   virtual void on_progress(const SendProgress& /*progress*/) {}
@@ -160,6 +160,7 @@ class LineSession {
     std::uint64_t accepted = 0;
     std::uint64_t offered = 0;  ///< see SendProgress
     bool is_fetching = false, is_fetched = false, is_offered = false, is_held = false;
+    bool awaits_start = false;  ///< as the line was counted last
     bool waits_for_line = false;
     std::optional<wire::LineTime> waits_since;
   };

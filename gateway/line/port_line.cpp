@@ -40,7 +40,8 @@ PortLine::PortLine(Parts parts)
       recorder_(parts_.recording, parts_.clock, parts_.on_traffic),
       losses_(parts_.names.address),
       session_(parts_.settings, *this),
-      transfer_(parts_.broken) {
+      transfer_(parts_.before.transfer),
+      may_be_in_text_(parts_.before.may_be_in_text) {
   if (parts_.is_upload_broken) session_.expect_rest();
 }
 
@@ -86,7 +87,7 @@ void PortLine::open() {
       parts_.open ? parts_.open(std::move(parts)) : serial::LineDriver::start(std::move(parts));
   if (driver) {
     driver_ = *std::move(driver);
-    if (parts_.is_program_broken)
+    if (parts_.before.may_be_in_text)
       driver_->post([](wire::Discipline& line, wire::LineTime) { line.expect_release(); });
     return;
   }
@@ -235,6 +236,7 @@ void PortLine::watch_wait() {
 /// Before it begins, because its end may come at once. What was shown before.
 std::optional<PortTransfer> PortLine::show_transfer(const SendJob& job) {
   const std::lock_guard lock(mutex_);
+  was_in_text_ = std::exchange(may_be_in_text_, true);
   auto before = transfer_;
   const bool is_read_at_once = job.kind == JobKind::Answer && sends_at_once(parts_.settings);
   if (job.kind == JobKind::Transfer || is_read_at_once) {
@@ -247,11 +249,14 @@ std::optional<PortTransfer> PortLine::show_transfer(const SendJob& job) {
 void PortLine::take_back(std::optional<PortTransfer> before) {
   const std::lock_guard lock(mutex_);
   transfer_ = std::move(before);
+  may_be_in_text_ = was_in_text_;
 }
 
 /// A program that the control has read to its end began at its beginning.
 void PortLine::end_transfer(const SendEnd& end) {
   const std::lock_guard lock(mutex_);
+  const bool is_completed = end.outcome == SendOutcome::Completed;
+  may_be_in_text_ = !is_completed && (end.may_have_left || was_in_text_);
   if (end.progress.kind == JobKind::Run && end.outcome == SendOutcome::Completed) {
     if (is_unfinished(transfer_)) transfer_.reset();
     return;
@@ -267,19 +272,20 @@ void PortLine::end_transfer(const SendEnd& end) {
   transfer_->reason = end.reason;
 }
 
-Result<void> PortLine::keep_transfer() {
-  if (!parts_.keep_transfer) return {};
-  std::optional<PortTransfer> transfer;
+Result<void> PortLine::keep_memory() {
+  if (!parts_.keep) return {};
+  LineMemory memory;
   {
     const std::lock_guard lock(mutex_);
-    if (is_unfinished(transfer_)) transfer = transfer_;
+    if (is_unfinished(transfer_)) memory.transfer = transfer_;
+    memory.may_be_in_text = may_be_in_text_;
   }
-  return parts_.keep_transfer(transfer);
+  return parts_.keep(memory);
 }
 
 void PortLine::on_sent(const SendEnd& end) {
   end_transfer(end);
-  if (auto kept = keep_transfer(); !kept)
+  if (auto kept = keep_memory(); !kept)
     process::log_error("port={}: the end of {} is not kept: {}", parts_.names.name, end.progress.id,
                        kept.error().what);
   refresh();  // the listener must not find it any more
@@ -318,8 +324,17 @@ void PortLine::on_request(const wire::TransferRequest& request) {
   parts_.post([on_request = parts_.listener.on_request, request] { on_request(request); });
 }
 
-void PortLine::on_release_refused() {
-  if (parts_.listener.on_release_refused) parts_.post(parts_.listener.on_release_refused);
+/// A text that is on the line now has not begun.
+void PortLine::on_release_refused(const wire::ReleaseRefused& refused) {
+  was_in_text_ = false;
+  if (!session_.progress()) {
+    may_be_in_text_ = false;
+    if (auto kept = keep_memory(); !kept)
+      process::log_warning("port={}: not kept that the control was refused: {}", parts_.names.name,
+                           kept.error().what);
+  }
+  if (refused.is_known && parts_.listener.on_release_refused)
+    parts_.post(parts_.listener.on_release_refused);
 }
 
 void PortLine::on_fault(const Error& error) {

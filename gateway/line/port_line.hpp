@@ -31,7 +31,7 @@ struct PortListener {
   /// On the line's thread, which waits: before more of a job may leave, and when more was sent. May
   /// be empty.
   std::function<void(const SendProgress&)> on_progress = {};
-  /// SessionHost::on_release_refused. May be empty.
+  /// The control knows that what it was in the middle of was broken off. May be empty.
   std::function<void()> on_release_refused = {};
 };
 
@@ -56,14 +56,11 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     FlightRecorder::Options recording;
     std::function<void(const PortTraffic&)> on_traffic;
     PortListener listener;
-    bool is_program_broken = false;  ///< Discipline::expect_release
-    bool is_upload_broken = false;   ///< LineSession::expect_rest
-    /// A transfer of a former life that did not go through.
-    std::optional<PortTransfer> broken = {};
-    /// What a next life has to know: the last transfer, from before it leaves until it went through
-    /// or a run did; else none. On the line's thread. Errors: nothing of it may leave. May be
-    /// empty.
-    std::function<Result<void>(const std::optional<PortTransfer>&)> keep_transfer = {};
+    bool is_upload_broken = false;  ///< LineSession::expect_rest
+    LineMemory before = {};         ///< of a former life
+    /// What a next life has to know, before a text may leave and when it has ended. On the line's
+    /// thread. Errors: nothing of the text may leave. May be empty.
+    std::function<Result<void>(const LineMemory&)> keep = {};
   };
   /// Called as a task, once, with what came of it; of hold, resume and abort as one of `post_near`:
   /// it must not wait.
@@ -129,7 +126,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   std::optional<PortTransfer> show_transfer(const SendJob& job);
   void take_back(std::optional<PortTransfer> before);
   void end_transfer(const SendEnd& end);
-  Result<void> keep_transfer();
+  Result<void> keep_memory();
   void answer_request();
   /// Text that the session waits for.
   struct Wanted {
@@ -145,7 +142,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   void on_sent(const SendEnd& end) override;
   void on_incoming(Incoming incoming) override;
   void on_request(const wire::TransferRequest& request) override;
-  void on_release_refused() override;
+  void on_release_refused(const wire::ReleaseRefused& refused) override;
   void on_fault(const Error& error) override;
   void on_progress(const SendProgress& progress) override;
 
@@ -164,6 +161,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   bool is_receiving_ = false;
   bool may_be_program_ = true;  ///< what is being received
   std::string store_fault_;
+  bool may_be_in_text_, was_in_text_ = false;  ///< LineMemory; before the text on the line
   std::optional<UtcTime> waiting_since_;
   std::optional<PortRequest> request_;
   std::uint64_t text_ahead_ = 0;

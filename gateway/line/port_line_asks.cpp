@@ -45,13 +45,13 @@ void PortLine::begin(SendJob job, Answer answer) {
         if (session_.progress())  // it refuses, and what it sends stays shown
           return session_.begin(std::move(*shared), line, now);
         auto before = show_transfer(*shared);
-        auto begun = shared->kind == JobKind::Run ? Result<void>() : keep_transfer();
+        auto begun = keep_memory();
         if (begun) begun = session_.begin(std::move(*shared), line, now);
         if (begun) {
           answer_request();
         } else {
           take_back(std::move(before));
-          (void)keep_transfer();  // at worst the next life asks for a reset that was not needed
+          (void)keep_memory();  // at worst the next life asks for a reset that was not needed
         }
         return begun;
       },

@@ -29,6 +29,14 @@ struct PortTransfer {
   std::optional<UtcTime> began = {}, ended = {};  ///< where they are known
 };
 
+/// What outlives the one who uses a line.
+struct LineMemory {
+  std::optional<PortTransfer> transfer = {};  ///< the last one that did not go through
+  /// The control may be in the middle of a text, of whatever kind: its next request may be for the
+  /// rest of that (Discipline::expect_release).
+  bool may_be_in_text = false;
+};
+
 /// What the control asked for last, while no run waited for it.
 struct PortRequest {
   UtcTime since;

@@ -81,9 +81,11 @@ struct TransferFailed {
 struct LineError {
   Error error;
 };
-/// The other end released a program that was broken off (Discipline::expect_release), and knows
-/// that it is over.
-struct ReleaseRefused {};
+/// The other end released a program that was broken off (Discipline::expect_release): it gets no
+/// other one for it.
+struct ReleaseRefused {
+  bool is_known = false;  ///< the protocol reports to it that the program is over
+};
 using Event = std::variant<TextReceived, TransferBegan, TransferEnded, FlowChanged, TextAccepted,
                            TransferFailed, LineError, TransferRequest, ReleaseRefused>;
 

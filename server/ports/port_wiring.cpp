@@ -242,8 +242,8 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
        .recording = {.port = entry.port.name, .folder = options_.recordings},
        .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
        .listener = std::move(listener),
-       .is_program_broken = is_program_broken(entry),
-       .is_upload_broken = entry.transfers && entry.transfers->take_broken_upload()});
+       .is_upload_broken = entry.transfers && entry.transfers->take_broken_upload(),
+       .before = {.may_be_in_text = is_program_broken(entry)}});
 }
 
 /// A control may be in the middle of a run, of programs sent without one, or of an offered program.

@@ -63,9 +63,9 @@ SerialGateway::~SerialGateway() {
   if (port_) port_->close("the gateway stopped");
 }
 
-std::shared_ptr<line::PortLine> SerialGateway::make_line(std::optional<line::PortTransfer> broken) {
+std::shared_ptr<line::PortLine> SerialGateway::make_line(line::LineMemory before) {
   const auto& options = parts_.options;
-  const bool is_broken = broken && broken->state == line::TransferState::Interrupted;
+  before.may_be_in_text = before.may_be_in_text || run_.is_program_broken();
   return line::PortLine::make(
       {.names = {options.machine, options.machine, options.line->address},
        .settings = settings_,
@@ -75,12 +75,8 @@ std::shared_ptr<line::PortLine> SerialGateway::make_line(std::optional<line::Por
        .recording = {.port = options.machine, .folder = parts_.recordings},
        .on_traffic = [](const line::PortTraffic&) {},
        .listener = listener(),
-       .is_program_broken = run_.is_program_broken() || is_broken,
-       .broken = std::move(broken),
-       .keep_transfer =
-           [this](const std::optional<line::PortTransfer>& transfer) {
-             return kept_transfer_.write(transfer);
-           }});
+       .before = std::move(before),
+       .keep = [this](const line::LineMemory& memory) { return kept_transfer_.write(memory); }});
 }
 
 line::PortListener SerialGateway::listener() {
@@ -105,9 +101,9 @@ Result<void> SerialGateway::recover() {
   if (parts_.options.speed.factor != 1)
     return fail(Errc::Unsupported, "a control on a line moves in real time: its speed is 1x");
   auto done = run_.recover();
-  auto broken = kept_transfer_.read();
-  if (!broken) return fail(broken.error());
-  port_ = make_line(*std::move(broken));
+  auto before = kept_transfer_.read();
+  if (!before) return fail(before.error());
+  port_ = make_line(*std::move(before));
   run_.use(*port_);
   inbound_.use(*port_);
   transfer_.use(*port_);

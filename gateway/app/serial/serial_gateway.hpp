@@ -80,7 +80,7 @@ class SerialGateway final : public MachineGateway {
   Result<void> check_transfer() const;
   bool end_transfer(const std::string& reason);
 
-  std::shared_ptr<line::PortLine> make_line(std::optional<line::PortTransfer> broken);
+  std::shared_ptr<line::PortLine> make_line(line::LineMemory before);
   line::PortListener listener();
   std::string label() const;
 

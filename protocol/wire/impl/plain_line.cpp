@@ -43,6 +43,7 @@ bool PlainLine::take_dc(char dc, LineTime now) {
     emit_fault({Errc::Conflict,
                 "DC1 came for the program that was broken off, and starts nothing: reset the "
                 "control and start again"});
+    emit(ReleaseRefused{});
     return true;
   }
   set_stopped(dc == kDc3, now);

@@ -241,7 +241,7 @@ bool TncStandard::is_release() {
   if (!is_begin || !std::exchange(is_release_due_, false)) return false;
   queue_control(settings_.heidenhain.eot);
   emit_fault({Errc::Conflict, "DC1 came for the program that was broken off: EOT answers it"});
-  emit(ReleaseRefused{});
+  emit(ReleaseRefused{.is_known = true});
   return true;
 }
 

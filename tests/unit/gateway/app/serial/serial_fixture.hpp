@@ -73,12 +73,18 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
     options_.line.reset();
     wire_ = {};
   }
-  /// The file is as a kill leaves it.
+  /// The next life finds the folder as a kill leaves it.
   void kill() {
-    const auto file = folder_.path() / "line-transfer.json", copy = folder_.path() / "copy";
-    std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing);
+    const auto copy = folder_.path().parent_path() / (folder_.path().filename().string() + "-copy");
+    std::filesystem::copy(folder_.path(), copy, std::filesystem::copy_options::recursive);
     end();
-    std::filesystem::copy_file(copy, file, std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::remove_all(folder_.path());
+    std::filesystem::rename(copy, folder_.path());
+  }
+  /// As a signal ends the process: in order.
+  void stop_process() {
+    EXPECT_TRUE(gateway_->interrupt_run("the gateway was stopped"));
+    end();
   }
   void connect(bool is_up) {
     is_up_ = is_up;
@@ -109,14 +115,14 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
     text_ = text;
     dds::Command start;
     start.machine = "mill-3";
-    start.id = "order-1";
+    start.id = "order-" + std::to_string(++ordered_);
     start.action = dds::CommandAction::Start;
     start.session = kSession;
-    start.server = start.number = 1;
+    start.server = start.number = ordered_;
     start.deadline = std::chrono::duration_cast<std::chrono::microseconds>(
                          clock_.steady_now().time_since_epoch()) +
                      std::chrono::seconds(5);
-    start.run = "run-1";
+    start.run = "run-" + std::to_string(ordered_);
     start.program = "O0077";
     start.revision = sha256(text).hex();
     start.size = text.size();
@@ -148,6 +154,8 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
     EXPECT_TRUE(answer_);
     return answer_.value_or(dds::LineData{});
   }
+  /// Before anything else is done.
+  void take(const dds::LineRequest& request) { gateway_->receive(request, clock_.steady_now()); }
   std::string panel(const std::string& line, const std::string& why_late = "") {
     std::string answer;
     gateway_->receive(
@@ -219,6 +227,7 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
   std::vector<dds::BlockRequest> requests_;
   std::optional<dds::LineData> answer_;
   int asked_ = 0;
+  std::uint64_t ordered_ = 0;
   bool is_up_ = false;
   std::optional<report::Outbox> outbox_;
   std::optional<report::RunJournal> journal_;
