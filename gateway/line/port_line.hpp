@@ -94,6 +94,9 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   void hold(const std::string& id, Answer answer);
   void resume(const std::string& id, Answer answer);
   void abort(const std::string& id, const std::string& reason, Answer answer);
+  /// Whatever is sent then, also what `begin` was called for just before this. Errors: Conflict
+  /// (nothing is).
+  void abort_any(const std::string& reason, Answer answer);
   /// A program replaces an answer that the control may never fetch. Errors: Busy (the control asks
   /// for nothing: it is reading the answer, and would take the program for its rest).
   Result<void> drop_answer();
@@ -158,10 +161,10 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   /// The last one; or an answer that a control reads, or was cut off in, without asking for it.
   std::optional<PortTransfer> transfer_;
   std::optional<PortTransfer> before_answer_;  ///< what was shown before it
+  bool may_be_in_text_, was_in_text_ = false;  ///< LineMemory; before the text on the line
   bool is_receiving_ = false;
   bool may_be_program_ = true;  ///< what is being received
   std::string store_fault_;
-  bool may_be_in_text_, was_in_text_ = false;  ///< LineMemory; before the text on the line
   std::optional<UtcTime> waiting_since_;
   std::optional<PortRequest> request_;
   std::uint64_t text_ahead_ = 0;

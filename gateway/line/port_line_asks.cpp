@@ -104,6 +104,16 @@ void PortLine::abort(const std::string& id, const std::string& reason, Answer an
       std::move(answer));
 }
 
+void PortLine::abort_any(const std::string& reason, Answer answer) {
+  ask_near(
+      [this, reason](wire::Discipline& line, wire::LineTime now) -> Result<void> {
+        const auto progress = session_.progress();
+        if (progress && session_.abort(progress->id, reason, line, now)) return {};
+        return fail(Errc::Conflict, "nothing is sent that could be aborted");
+      },
+      std::move(answer));
+}
+
 void PortLine::refuse(const std::string& reason) {
   {
     const std::lock_guard lock(mutex_);

@@ -191,7 +191,8 @@ void LineAnswers::send_answer(const dds::LineRequest& request, bool is_running) 
   auto text =
       order ? parts_.transfer.take(request.name, *order) : Result<std::string>(fail(order.error()));
   if (!text) return remember(request.id, refused(text.error().what));
-  parts_.inbound.send_answer(order->name, *std::move(text));
+  const auto sent = parts_.inbound.send_answer(order->name, *std::move(text));
+  if (!sent) remember(request.id, refused(sent.error().what));
 }
 
 void LineAnswers::begin_transfer(const dds::LineRequest& request, bool is_running) {

@@ -179,7 +179,7 @@ Reply SerialGateway::set_remote_enable(bool is_enabled) {
 /// Whether programs may be sent without a run. A control that is not in the mode to store them
 /// executes them, so this needs the same consent as a run.
 Result<void> SerialGateway::check_transfer() const {
-  if (is_emergency_stopped_) return fail(Errc::Conflict, "{}", kEmergencyStopIsPressed);
+  if (auto allowed = check_stop(); !allowed) return allowed;
   if (!run_.must_wait_for_panel()) return {};
   if (!is_begun_at_control(settings_)) {
     return fail(Errc::Conflict,
@@ -194,12 +194,27 @@ Result<void> SerialGateway::check_transfer() const {
               parts_.options.machine);
 }
 
-/// Of programs without a run. False: there is none.
+/// Whether anything may be sent to the control.
+Result<void> SerialGateway::check_stop() const {
+  if (!is_emergency_stopped_) return {};
+  return fail(Errc::Conflict, "{}", kEmergencyStopIsPressed);
+}
+
+/// Whatever it is: programs without a run, an answer, and what has not reached the line yet. False:
+/// nothing was seen to be sent.
 bool SerialGateway::end_transfer(const std::string& reason) {
-  const auto now = port_->progress();
-  if (!now || now->kind != line::JobKind::Transfer) return false;
-  port_->abort(now->id, reason, [](const Result<void>&) {});
-  return true;
+  const bool is_sending = port_->progress().has_value();
+  port_->abort_any(reason, [](const Result<void>&) {});
+  return is_sending;
+}
+
+/// What the control has asked for gets nothing, now and later: it asks again.
+void SerialGateway::drop_request(const std::string& reason) {
+  calls_.clear();
+  const auto request = port_->view().request;
+  if (!request || !request->answer.empty()) return;
+  port_->note("refused: " + reason);
+  port_->refuse(reason);
 }
 
 void SerialGateway::note_at_panel(const std::string& text) {

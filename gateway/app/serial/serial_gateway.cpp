@@ -44,6 +44,7 @@ SerialGateway::SerialGateway(Parts parts)
                 .uploads = parts_.uploads,
                 .clock = parts_.clock,
                 .run = [this] { return run_.last_run(); },
+                .check_allowed = [this] { return check_stop(); },
                 .on_request = [this](line::RuleAction action,
                                      const std::string& argument) { add_call(action, argument); }}),
       transfer_({.clock = parts_.clock, .check_allowed = [this] { return check_transfer(); }}),
@@ -178,6 +179,7 @@ SteadyTime SerialGateway::turn(SteadyTime now) {
   calls_.poll(now);
   records_.poll(now);
   tasks_->run();
+  if (const auto allowed = check_stop(); !allowed) drop_request(allowed.error().what);
   commands_.send();
   server_.send_records(now);
   server_.send_status(now, [this] { return status(); });

@@ -78,7 +78,9 @@ class SerialGateway final : public MachineGateway {
   void note_at_panel(const std::string& text);
   bool is_sending_programs() const;
   Result<void> check_transfer() const;
+  Result<void> check_stop() const;
   bool end_transfer(const std::string& reason);
+  void drop_request(const std::string& reason);
 
   std::shared_ptr<line::PortLine> make_line(line::LineMemory before);
   line::PortListener listener();

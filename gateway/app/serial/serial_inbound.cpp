@@ -54,10 +54,12 @@ void SerialInbound::store_program(const std::string& name) {
 void SerialInbound::answer(const std::string& words) {
   const std::string& name = parts_.rules->reply();
   if (name.empty()) return;
-  send_answer(name, line::comment_program(name, line::comment_lines(words)));
+  const auto sent = send_answer(name, line::comment_program(name, line::comment_lines(words)));
+  if (!sent) process::log_warning("answer not sent: {}", sent.error().what);
 }
 
-void SerialInbound::send_answer(std::string name, std::string text) {
+Result<void> SerialInbound::send_answer(std::string name, std::string text) {
+  if (auto allowed = parts_.check_allowed(); !allowed) return allowed;
   line::SendJob job;
   job.kind = line::JobKind::Answer;
   job.id = fmt::format("answer-{}", random_hex(4));
@@ -67,6 +69,7 @@ void SerialInbound::send_answer(std::string name, std::string text) {
   port_->begin(std::move(job), [](const Result<void>& begun) {
     if (!begun) process::log_warning("answer not sent: {}", begun.error().what);
   });
+  return {};
 }
 
 }  // namespace dripline::gateway

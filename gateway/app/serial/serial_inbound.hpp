@@ -24,6 +24,8 @@ class SerialInbound final : private line::InboundSink {
     UploadStore& uploads;
     const Clock& clock;
     std::function<std::string()> run;  ///< that printed lines belong to; may be empty
+    /// Why nothing may be sent to the control now.
+    std::function<Result<void>()> check_allowed;
     /// What was requested at the control, to be decided by the server.
     std::function<void(line::RuleAction, const std::string& argument)> on_request;
   };
@@ -36,8 +38,8 @@ class SerialInbound final : private line::InboundSink {
   }
   /// To monitors of the line, and to the control where the rules define how.
   void report(const std::string& words) { router_.tell(words); }
-  /// A text that answers what the control requested.
-  void send_answer(std::string name, std::string text);
+  /// A text that answers what the control requested. Errors: those of `check_allowed`.
+  Result<void> send_answer(std::string name, std::string text);
   void answer(const std::string& words) override;
 
  private:
