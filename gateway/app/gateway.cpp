@@ -112,24 +112,6 @@ Result<void> Gateway::recover() {
   return loop_.recover();
 }
 
-/// How far the interrupted run has come is not known yet: only a stop may change anything.
-void Gateway::serve_stops() {
-  using Verb = PanelCommand::Verb;
-  for (const PanelRequest& request : parts_.take_panel()) {
-    const Verb verb = request.command.verb;
-    if (verb == Verb::Hold || verb == Verb::Abort) {  // there is no run to hold
-      machine_->abort();
-      process::log_warning("panel: the device is stopped while the gateway recovers {}",
-                           run_.label());
-      request.answer("ok what the machine still had of the interrupted run is ended");
-    } else if (is_stop(request.command)) {
-      on(request, parts_.clock.steady_now());
-    } else {
-      request.answer("refused the gateway waits to see where the axes rest: again in some seconds");
-    }
-  }
-}
-
 void Gateway::receive(const Incoming& incoming, SteadyTime now) {
   std::visit([this, now](const auto& message) { on(message, now); }, incoming);
 }

@@ -88,7 +88,6 @@ class Gateway final : public MachineGateway {
   std::optional<Reply> begin_jog(const dds::Command& command);
   void keep_jog(const dds::Command& command, const std::string& hold);
   bool stop_jog(std::string_view why);
-  void serve_stops();
   bool stop_homing(std::string_view why);
   bool stop_without_run(std::string_view why);
   void on_jog(const dds::Command& command);
@@ -99,6 +98,9 @@ class Gateway final : public MachineGateway {
   void answer_query(const dds::Command& command);
   void show_setup(const std::string& setup);
   void keep_answer(const std::string& command, const Reply& reply);
+
+  // gateway_panel.cpp
+  void serve_stops();
   Reply carry_out(const PanelCommand& command);
   Reply cycle_start();
   Reply rewind_tape();
