@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,7 @@ class Gateway final : public MachineGateway {
     std::uint64_t session = 0;              ///< of this process, not zero
     feed::ControlLine* line = nullptr;      ///< programs come from it instead of the server
     std::filesystem::path line_doubt = {};  ///< LineOperator::Parts::doubt
+    std::filesystem::path kept_emergency_stop = {};  ///< its file; empty: not kept
     /// What waits from the machine's panel, while recover keeps the inbox waiting.
     std::function<std::vector<PanelRequest>()> take_panel = [] {
       return std::vector<PanelRequest>();
@@ -121,6 +123,7 @@ class Gateway final : public MachineGateway {
   CommandLog commands_;
   PanelController panel_;
   RunLoop loop_;
+  KeptEmergencyStop emergency_stop_;
   PositionSetter positions_;
   Jogger jogger_;
   std::unique_ptr<LineOperator> line_;  ///< null: programs come from the server

@@ -63,10 +63,10 @@ Reply Gateway::carry_out(const PanelCommand& command) {
       if (command.value == 0) (void)stop_jog("without the remote enable");
       return panel_.set_remote_enable(command.value == 1);
     case Verb::EmergencyStop:
-      return panel_.set_emergency_stop_at_panel(command.value == 1);
+      return panel_.set_emergency_stop(command.value == 1, true);
     case Verb::Switch:
       if (command.text == "emergency_stop")
-        return panel_.set_emergency_stop_at_panel(command.value == 1);
+        return panel_.set_emergency_stop(command.value == 1, true);
       return panel_.set_switch(command_of(command));
     case Verb::FeedOverride:
     case Verb::RapidOverride:

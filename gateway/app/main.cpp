@@ -106,6 +106,7 @@ Result<void> run_serial(const GatewayOptions& options) {
                          .rules = *std::move(rules),
                          .recordings = around.folder.recordings(),
                          .kept_transfer = around.folder.kept_transfer(),
+                         .kept_emergency_stop = around.folder.emergency_stop(),
                          .session = around.session,
                          .wake = [&around] { around.inbox.post(LineChanged{}); }});
   return around.run(gateway);
@@ -146,6 +147,7 @@ Result<void> run(const GatewayOptions& options) {
                    .session = around.session,
                    .line = line->get(),
                    .line_doubt = around.folder.line_doubt(),
+                   .kept_emergency_stop = around.folder.emergency_stop(),
                    .take_panel = [&around] { return around.inbox.take_panel(); }});
   return around.run(gateway);
 }

@@ -22,6 +22,7 @@ class StateFolder {
   std::filesystem::path uploads() const { return folder_ / "uploads"; }
   std::filesystem::path kept_transfer() const { return folder_ / "line-transfer.json"; }
   std::filesystem::path line_doubt() const { return folder_ / "line-text-open"; }
+  std::filesystem::path emergency_stop() const { return folder_ / "emergency-stop"; }
 
  private:
   StateFolder(std::filesystem::path folder, FileLock lock)

@@ -1,9 +1,9 @@
 // What the server does when its disk is full or its database damaged.
 #include <gtest/gtest.h>
-#include <sys/mount.h>
 #include <cstdlib>
 #include <fstream>
 
+#include "tests/integration/small_disk.hpp"
 #include "tests/integration/system.hpp"
 #include "tests/support/program_generator.hpp"
 
@@ -15,32 +15,6 @@ std::string report_program(std::uint64_t lines) {
   test_support::write_report_program(lines, 3, [&](std::string_view piece) { text += piece; });
   return text;
 }
-
-/// A file system of 16 MiB on the server's state folder. Needs root.
-class SmallDisk {
- public:
-  explicit SmallDisk(std::filesystem::path folder) : folder_(std::move(folder)) {
-    std::filesystem::create_directories(folder_);
-    is_mounted_ = ::mount("tmpfs", folder_.c_str(), "tmpfs", 0, "size=16m") == 0;
-  }
-  ~SmallDisk() {
-    if (is_mounted_) ::umount2(folder_.c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  bool is_mounted() const { return is_mounted_; }
-
-  void fill() {
-    std::ofstream ballast(folder_ / "ballast", std::ios::binary);
-    const std::string page(4096, 'x');
-    while (ballast.write(page.data(), static_cast<std::streamsize>(page.size())).flush()) continue;
-  }
-  void empty() { std::filesystem::remove(folder_ / "ballast"); }
-
- private:
-  std::filesystem::path folder_;
-  bool is_mounted_ = false;
-};
 
 TEST(FullDisk, TheGatewayKeepsItsRecordsAndDeliversThemLater) {
   System system({.speed = "max", .server_arguments = {}, .gateway_arguments = {}});

@@ -80,6 +80,7 @@ void PanelController::take_tables(const interpreter::Setup& setup) {
 void PanelController::begin(const interpreter::Setup& setup) {
   take_tables(setup);
   OperatorPanel panel;
+  panel.emergency_stop = parts_.emergency_stop.is_pressed();
   panel.single_block = setup.switches.single_block;
   panel.optional_stop = setup.switches.optional_stop;
   panel.block_skip = setup.switches.block_skip;
@@ -138,7 +139,7 @@ Reply PanelController::set_switch(const dds::Command& command) {
   if (command.value != 0 && command.value != 1)
     return refuse(fmt::format("a switch is 0 or 1, not {}", command.value));
   const bool is_on = command.value == 1;
-  if (name == "emergency_stop") return set_emergency_stop(is_on);
+  if (name == "emergency_stop") return set_emergency_stop(is_on, false);
   const machine::MotionCapabilities& machine = parts_.machine.capabilities();
   OperatorPanel panel = parts_.machine.panel();
   if (name == "single_block" && machine.single_block) {
@@ -244,9 +245,9 @@ Reply PanelController::set_between_runs(const char* what, bool OperatorPanel::*w
 }
 
 /// The record is staged before the machine ends the run.
-Reply PanelController::set_emergency_stop(bool is_pressed) {
+void PanelController::switch_emergency_stop(bool is_pressed) {
   OperatorPanel panel = parts_.machine.panel();
-  if (panel.emergency_stop == is_pressed) return {};
+  if (panel.emergency_stop == is_pressed) return;
   panel.emergency_stop = is_pressed;
   if (is_pressed) parts_.consent.set_enabled(false);
   process::log_warning("emergency stop {} {}", is_pressed ? "pressed" : "released",
@@ -256,12 +257,12 @@ Reply PanelController::set_emergency_stop(bool is_pressed) {
     parts_.recorder.note_emergency_stop(parts_.machine.status().origin);
   }
   parts_.machine.set_panel(panel);
-  return {};
 }
 
-Reply PanelController::set_emergency_stop_at_panel(bool is_pressed) {
-  is_stopped_at_panel_ = is_pressed;
-  return set_emergency_stop(is_pressed);
+Reply PanelController::set_emergency_stop(bool is_pressed, bool is_at_panel) {
+  switch_emergency_stop(is_pressed);
+  if (is_pressed) return {true, answer_of_press(parts_.emergency_stop.press(is_at_panel))};
+  return {true, answer_of_release(parts_.emergency_stop.release())};
 }
 
 Reply PanelController::set_remote_enable(bool is_enabled) {
@@ -280,7 +281,7 @@ Reply PanelController::set_remote_enable(bool is_enabled) {
 std::optional<Reply> PanelController::refusal_without_consent(const dds::Command& command) const {
   const bool releases = command.action == CommandAction::Switch &&
                         command.argument == "emergency_stop" && command.value == 0;
-  if (releases && is_stopped_at_panel_)
+  if (releases && parts_.emergency_stop.is_pressed_at_panel())
     return refuse("the emergency stop was pressed at the machine's panel: release it there");
   if (parts_.consent.is_given() || !needs_consent(command, parts_.machine.panel()))
     return std::nullopt;

@@ -5,6 +5,7 @@
 
 #include "gateway/app/command_log.hpp"
 #include "gateway/app/panel/consent.hpp"
+#include "gateway/app/panel/kept_emergency_stop.hpp"
 #include "gateway/app/run/run_session.hpp"
 #include "gateway/interpreter/core/dialect.hpp"
 
@@ -20,11 +21,13 @@ class PanelController {
     ExecutionRecorder& recorder;
     CurrentRun& run;
     Consent& consent;
+    KeptEmergencyStop& emergency_stop;
   };
   /// All references must outlive it.
   explicit PanelController(const Parts& parts) : parts_(parts) {}
 
-  /// The switches as the gateway's setup has them, before the first run.
+  /// The switches as the gateway's setup has them, before the first run; the emergency stop as the
+  /// process before this one has left it.
   void begin(const interpreter::Setup& setup);
   /// Positions of the control's switches, as the setup describes them.
   void take_tables(const interpreter::Setup& setup);
@@ -35,10 +38,9 @@ class PanelController {
   Reply set_override(const dds::Command& command);
   Reply turn_handwheel(const dds::Command& command);
 
-  /// Every machine has one, whatever its control.
-  Reply set_emergency_stop(bool is_pressed);
-  /// One that was pressed at the machine is released there only.
-  Reply set_emergency_stop_at_panel(bool is_pressed);
+  /// Every machine has one, whatever its control. One that was pressed at the machine is released
+  /// there only. The axes brake at once; on disk before the answer, or the answer says that not.
+  Reply set_emergency_stop(bool is_pressed, bool is_at_panel);
   /// Moves nothing by itself: a run that waits continues to wait for a cycle start, at the machine
   /// or, now, over the network.
   Reply set_remote_enable(bool is_enabled);
@@ -46,6 +48,7 @@ class PanelController {
   std::optional<Reply> refusal_without_consent(const dds::Command& command) const;
 
  private:
+  void switch_emergency_stop(bool is_pressed);
   Reply set_block_skip(int level, bool is_on);
   Reply set_dry_run(bool is_on);
   Reply set_machine_lock(bool is_on);
@@ -58,7 +61,6 @@ class PanelController {
 
   Parts parts_;
   interpreter::PanelTables tables_;
-  bool is_stopped_at_panel_ = false;
 };
 
 inline constexpr std::string_view kDoorWasOpen =

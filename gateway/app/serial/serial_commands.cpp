@@ -58,7 +58,7 @@ Reply SerialGateway::carry_out(const dds::Command& command, bool is_stop) {
   }
   if (command.action == CommandAction::Start) return start(command);
   machine::OperatorPanel panel;
-  panel.emergency_stop = is_emergency_stopped_;
+  panel.emergency_stop = emergency_stop_.is_pressed();
   if (!consent_.is_given() && needs_consent(command, panel)) return refuse(std::string(kNoConsent));
   if (command.action == CommandAction::Switch && command.argument == "emergency_stop")
     return set_emergency_stop(command.value == 1, false);
@@ -78,7 +78,7 @@ Reply SerialGateway::start(const dds::Command& command) {
     return refuse(
         fmt::format("busy with run {} of program {}", run_.run().run, run_.run().program));
   if (auto refusal = refusal_of_program(command, parts_.options)) return *refusal;
-  if (is_emergency_stopped_) return refuse(std::string(kEmergencyStopIsPressed));
+  if (emergency_stop_.is_pressed()) return refuse(std::string(kEmergencyStopIsPressed));
   return reply_of(run_.start(command, parts_.clock.steady_now()));
 }
 
@@ -87,7 +87,7 @@ Reply SerialGateway::operate(const dds::Command& command) {
     case CommandAction::Hold:
       return reply_of(run_.hold());
     case CommandAction::Resume:
-      if (is_emergency_stopped_) return refuse(std::string(kEmergencyStopIsPressed));
+      if (emergency_stop_.is_pressed()) return refuse(std::string(kEmergencyStopIsPressed));
       return reply_of(run_.resume());
     case CommandAction::Abort:
       run_.abort("aborted by command");
@@ -99,19 +99,18 @@ Reply SerialGateway::operate(const dds::Command& command) {
 
 /// It ends the text; the machine's own circuit stops the machine.
 Reply SerialGateway::set_emergency_stop(bool is_pressed, bool is_at_panel) {
-  if (!is_pressed && is_stopped_at_panel_ && !is_at_panel)
+  if (!is_pressed && emergency_stop_.is_pressed_at_panel() && !is_at_panel)
     return refuse("the emergency stop was pressed at the machine: it is released there");
-  if (is_pressed && !is_emergency_stopped_)
+  server_.want_status();
+  if (!is_pressed) return {true, answer_of_release(emergency_stop_.release())};
+  if (!emergency_stop_.is_pressed())
     records_.append({.kind = dds::RecordKind::Stop,
                      .run = run_.is_active() ? run_.run().run : std::string(),
                      .text = "emergency stop"});
-  is_emergency_stopped_ = is_pressed;
-  if (is_pressed) consent_.set_enabled(false);  // after the stop the network may start nothing
-  is_stopped_at_panel_ = is_pressed && (is_at_panel || is_stopped_at_panel_);
-  if (is_pressed) run_.abort(std::string(kEmergencyStopReason));
-  if (is_pressed) end_transfer(std::string(kEmergencyStopReason));
-  server_.want_status();
-  return {};
+  consent_.set_enabled(false);  // after the stop the network may start nothing
+  run_.abort(std::string(kEmergencyStopReason));
+  end_transfer(std::string(kEmergencyStopReason));
+  return {true, answer_of_press(emergency_stop_.press(is_at_panel))};
 }
 
 void SerialGateway::on(const PanelRequest& request, SteadyTime) {
@@ -159,7 +158,7 @@ Reply SerialGateway::carry_out(const PanelCommand& command) {
     run_.abort(std::string(kAbortedAtPanel));
     return {};
   }
-  if (is_emergency_stopped_) return refuse(std::string(kEmergencyStopIsPressed));
+  if (emergency_stop_.is_pressed()) return refuse(std::string(kEmergencyStopIsPressed));
   note_at_panel("cycle start");
   return reply_of(run_.cycle_start());
 }
@@ -169,7 +168,8 @@ Reply SerialGateway::carry_out(const PanelCommand& command) {
 Reply SerialGateway::set_remote_enable(bool is_enabled) {
   if (consent_.is_unattended())
     return refuse("this machine is unattended (--unattended yes): the network may start it");
-  if (is_enabled && is_emergency_stopped_) return refuse(std::string(kEmergencyStopIsPressed));
+  if (is_enabled && emergency_stop_.is_pressed())
+    return refuse(std::string(kEmergencyStopIsPressed));
   if (consent_.is_given() == is_enabled) return {};
   consent_.set_enabled(is_enabled);
   note_at_panel(fmt::format("remote enable {}", is_enabled ? "on" : "off"));
@@ -196,7 +196,7 @@ Result<void> SerialGateway::check_transfer() const {
 
 /// Whether anything may be sent to the control.
 Result<void> SerialGateway::check_stop() const {
-  if (!is_emergency_stopped_) return {};
+  if (!emergency_stop_.is_pressed()) return {};
   return fail(Errc::Conflict, "{}", kEmergencyStopIsPressed);
 }
 

@@ -57,6 +57,7 @@ SerialGateway::SerialGateway(Parts parts)
                 .rules = parts_.rules,
                 .extracts_programs = settings_.extracts_programs}),
       kept_transfer_(parts_.kept_transfer),
+      emergency_stop_(parts_.kept_emergency_stop),
       tasks_(std::make_shared<TaskQueue>(parts_.wake)) {}
 
 SerialGateway::~SerialGateway() {
@@ -219,7 +220,7 @@ dds::Status SerialGateway::status() const {
                     .server = server_,
                     .uploads = parts_.uploads,
                     .calls = calls_,
-                    .is_emergency_stopped = is_emergency_stopped_,
+                    .is_emergency_stopped = emergency_stop_.is_pressed(),
                     .buffered_bytes = run_.buffered_bytes(),
                     .has_all_text = run_.has_all_text()};
   state.buffered_seconds = run_.seconds_of(state.buffered_bytes);

@@ -7,6 +7,7 @@
 #include "gateway/app/machine_gateway.hpp"
 #include "gateway/app/options.hpp"
 #include "gateway/app/panel/consent.hpp"
+#include "gateway/app/panel/kept_emergency_stop.hpp"
 #include "gateway/app/serial/kept_transfer.hpp"
 #include "gateway/app/serial/line_answers.hpp"
 #include "gateway/app/serial/line_calls.hpp"
@@ -35,9 +36,10 @@ class SerialGateway final : public MachineGateway {
     std::shared_ptr<const line::RuleSet> rules;
     std::filesystem::path recordings;     ///< folder of the flight recorder; empty: in memory only
     std::filesystem::path kept_transfer;  ///< its file (KeptTransfer)
-    std::uint64_t session = 0;            ///< of this process, not zero
-    std::function<void()> wake;           ///< `turn` has something to do; any thread
-    line::LineOpener open = {};           ///< empty: serial::LineDriver::start
+    std::filesystem::path kept_emergency_stop = {};  ///< its file; empty: not kept
+    std::uint64_t session = 0;                       ///< of this process, not zero
+    std::function<void()> wake;                      ///< `turn` has something to do; any thread
+    line::LineOpener open = {};                      ///< empty: serial::LineDriver::start
   };
   /// All references must outlive it.
   explicit SerialGateway(Parts parts);
@@ -100,10 +102,10 @@ class SerialGateway final : public MachineGateway {
   LineAnswers answers_;
   const KeptTransfer kept_transfer_;
   std::shared_ptr<TaskQueue> tasks_;
+  KeptEmergencyStop emergency_stop_;
   std::shared_ptr<line::PortLine> port_;
   SteadyTime next_tick_{};
   bool stop_requested_ = false;
-  bool is_emergency_stopped_ = false, is_stopped_at_panel_ = false;
 };
 
 }  // namespace dripline::gateway

@@ -70,7 +70,8 @@ void GatewayFixture::restart_gateway() {
       .make_motion =
           motion ? motion
                  : make_motion("simulated", control_, {.workpiece = setup.workpiece}).value(),
-      .session = static_cast<std::uint64_t>(++sessions_)};
+      .session = static_cast<std::uint64_t>(++sessions_),
+      .kept_emergency_stop = folder() / "emergency-stop"};
   if (take_panel) parts.take_panel = take_panel;
   gateway = std::make_unique<Gateway>(std::move(parts));
   if (const auto done = gateway->recover(); !done) throw std::runtime_error(done.error().what);

@@ -52,6 +52,7 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
                                      line::RuleSet(line::read_rules(rules).value())),
         .recordings = folder_.path() / "recordings",
         .kept_transfer = folder_.path() / "line-transfer.json",
+        .kept_emergency_stop = folder_.path() / "emergency-stop",
         .session = kSession,
         .wake = [] {},
         .open =
