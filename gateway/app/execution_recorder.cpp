@@ -75,7 +75,12 @@ interpreter::Origin ExecutionRecorder::reached_origin() const {
 
 void ExecutionRecorder::finish() {
   parts_.journal.clear();
+  cancel();
+}
+
+void ExecutionRecorder::cancel() {
   run_.clear();
+  feed_progress_ = nullptr;
 }
 
 Result<void> ExecutionRecorder::commit() {
@@ -104,6 +109,7 @@ void ExecutionRecorder::on_given(const machine::GivenAction& action) {
 }
 
 void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {
+  if (!feed_progress_) return;  // of no run
   const FeedProgress feed_progress = feed_progress_(origin.block);
   reached_ = {feed_progress.sent, feed_progress.accepted, origin.block,      origin.line,
               origin.sequence,    origin.offset,          feed_progress.path};

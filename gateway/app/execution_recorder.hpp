@@ -51,6 +51,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   /// until that succeeds; then `finish`.
   void end(dds::RunEndText end);
   void finish();
+  /// The run that was begun last could not be kept: it does not exist. Nothing refers to its feed.
+  void cancel();
   /// Stages the end of a run that a former process was executing, after what the control had kept.
   void end_interrupted(const std::string& run, const report::Progress& progress,
                        const std::vector<std::string>& memory);

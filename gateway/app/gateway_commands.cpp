@@ -198,8 +198,9 @@ Reply Gateway::set_position(const dds::Command& command) {
     return refuse(change.error().what);
   }
   Reply reply{true, valid_text(change->text, kMaxReason), change->details};
-  outbox_.discard();
   memory_.stage();
+  if (const auto kept = outbox_.commit(); !kept)
+    return refuse(fmt::format("what was done before cannot be kept yet: {}", kept.error().what));
   recorder_.note_memory_change(std::string(dds::kChangePrefix) + command.id,
                                memory_.report(change->record));
   commands_.stage(command.id, reply);

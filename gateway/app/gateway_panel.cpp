@@ -11,6 +11,8 @@ using dds::CommandAction;
 
 namespace {
 
+constexpr const char* kNotOnRecord = "done, but not on record yet: the records cannot be written";
+
 /// What is done at the panel is carried out as a command from the network is.
 dds::Command command_of(const PanelCommand& panel) {
   using Verb = PanelCommand::Verb;
@@ -42,13 +44,15 @@ void Gateway::on(const PanelRequest& request, SteadyTime) {
     return request.answer("refused " + *late);
   }
   validity_.note_panel(parts_.clock.steady_now());
-  const Reply reply = carry_out(request.command);
+  Reply reply = carry_out(request.command);
   process::log_info("panel {}{}{} {}", reply.is_accepted ? "accepted" : "refused",
                     reply.reason.empty() ? "" : ": ", reply.reason, run_.label());
   // With a run, its records are committed at the end of the block.
   if (!run_.session) {
-    if (const auto done = outbox_.commit(); !done)
-      process::log_error("panel: not on record: {} {}", done.error().what, run_.label());
+    if (const auto done = outbox_.commit(); !done) {
+      process::log_error("panel: not on record yet: {} {}", done.error().what, run_.label());
+      if (reply.is_accepted && reply.reason.empty()) reply.reason = kNotOnRecord;
+    }
   }
   server_.want_status();
   std::string answer = reply.is_accepted ? "ok" : "refused";

@@ -126,6 +126,7 @@ class RunLoop {
   void run_slice(SteadyTime now);
   bool run_round(double& machine_seconds, SteadyTime deadline);
   bool wait_for_beginning(SteadyTime now);
+  Result<void> keep_staged();
   bool wait_out_fault(SteadyTime now);
   void commit_reports();
   void keep_state(SteadyTime now);

@@ -226,9 +226,16 @@ std::optional<interpreter::PanelTables::DryRun> RunLoop::dry_run() const {
 }
 
 /// Puts the start on disk: from here on the run exists, and ends exactly once.
+/// What was done at the panel or over the network before, and could not be written then.
+Result<void> RunLoop::keep_staged() {
+  const auto kept = parts_.outbox.commit();
+  if (kept) return {};
+  return fail(kept.error().code, "what was done before cannot be kept yet: {}", kept.error().what);
+}
+
 Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigin& origin,
                                   Conditions conditions, RunSession& session) {
-  parts_.outbox.discard();
+  if (auto kept = keep_staged(); !kept) return kept;
   const bool is_whole = origin.from.place.empty() && !origin.from.restart && !origin.from.is_mdi;
   if (is_whole && !session.is_test()) {
     parts_.memory.stage_beginning(run.revision);
@@ -252,6 +259,7 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
   if (done) return {};
   parts_.outbox.discard();
   return fail(done.error().code, "the start cannot be kept: {}", done.error().what);
+  parts_.recorder.cancel();
 }
 
 /// A program that has ended leaves the reader where the next start reads on.
