@@ -7,6 +7,7 @@
 #include <set>
 #include <system_error>
 
+#include "protocol/base/durable_file.hpp"
 #include "protocol/base/private_folder.hpp"
 #include "storage/programs/chunk_codec.hpp"
 #include "storage/sqlite_store.hpp"
@@ -170,6 +171,7 @@ Result<Backup> BackupFolder::make(const Source& source, UtcTime now, const Watch
     if (!file) return fail(file.error());
     manifest.files.push_back(*std::move(file));
   }
+  if (auto synced = chunks_.sync(); !synced) return fail(synced.error());
   const std::string text = to_text(manifest);
   if (auto written = write_whole(manifest_file(id), std::as_bytes(std::span(text))); !written)
     return fail(written.error());
@@ -279,9 +281,14 @@ Result<void> BackupFolder::restore(const std::string& id, const fs::path& folder
     fs::remove_all(fresh, ec);
     return restored;
   }
+  const auto not_on_disk = [](const fs::path& path) {
+    return fail(Errc::Io, "{}: {}", path.string(), std::generic_category().message(errno));
+  };
+  if (!sync_folder(fresh)) return not_on_disk(fresh);
   fs::remove(folder, ec);  // an empty one
   fs::rename(fresh, folder, ec);
   if (ec) return fail(Errc::Io, "{}: {}", folder.string(), ec.message());
+  if (!sync_folder(fresh.parent_path())) return not_on_disk(fresh.parent_path());
   return {};
 }
 

@@ -87,6 +87,11 @@ Result<std::uint64_t> ChunkFiles::put(std::span<const std::byte> plain,
   return added;
 }
 
+Result<void> ChunkFiles::sync() const {
+  if (!sync_folder(folder_)) return errno_failure(folder_);
+  return {};
+}
+
 Result<std::vector<std::byte>> ChunkFiles::get(const Digest& digest, std::uint64_t size) const {
   constexpr std::uint64_t kMostBytes = 2 * storage::kChunkBytes;  // compressed; never that long
   const auto data = read_whole(path_of(digest), kMostBytes);

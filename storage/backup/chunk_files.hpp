@@ -25,6 +25,9 @@ class ChunkFiles {
 
   /// Stores those that are not there. Returns the bytes that were written. Errors: Io.
   Result<std::uint64_t> put(std::span<const std::byte> plain, std::vector<Digest>& digests);
+  /// After `put`, before its digests are named anywhere: the sub-folders' names are on disk too.
+  /// Errors: Io.
+  Result<void> sync() const;
   /// The plain bytes, checked. Errors: Corrupt (also: missing), Io.
   Result<std::vector<std::byte>> get(const Digest& digest, std::uint64_t size) const;
   /// Removes a damaged one, so that the next backup stores it again.
