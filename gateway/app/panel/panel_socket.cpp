@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "gateway/app/panel/shortage.hpp"
 #include "protocol/base/descriptor.hpp"
 
 namespace dripline::gateway {
@@ -179,6 +180,7 @@ class PanelSocket::Server {
   std::map<std::uint64_t, Connection> connections_;
   std::uint64_t last_id_ = 0, clock_ = 0;
   BootTime silent_at_ = boot_now();  ///< no new connection waited then
+  Shortage shortage_;
   std::atomic<bool> is_stopping_{false};
   std::thread thread_;  ///< last: it uses all of the above
 };
@@ -195,7 +197,7 @@ void PanelSocket::Server::serve() {
       ids.push_back(id);
     }
     if (::poll(polled.data(), polled.size(), static_cast<int>(kLook.count())) < 0) {
-      if (errno != EINTR) return;
+      if (errno != EINTR) shortage_.wait_out("poll");
       continue;  // nothing was looked at
     }
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -224,6 +226,8 @@ void PanelSocket::Server::serve() {
 
 void PanelSocket::Server::accept_one() {
   Descriptor socket(::accept4(listening_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (!socket && errno != EAGAIN && errno != EINTR && errno != ECONNABORTED)
+    shortage_.wait_out("accept");  // it still waits to be accepted
   if (!socket) return;
   if (connections_.size() >= kMaxConnections) close_idle();
   Connection& connection = connections_[++last_id_];

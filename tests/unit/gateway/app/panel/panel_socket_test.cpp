@@ -1,6 +1,8 @@
 #include "gateway/app/panel/panel_socket.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -8,6 +10,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstring>
+#include <ctime>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -29,13 +32,16 @@ class OpenPanel : public testing::Test {
   }
   /// A connection that sends nothing yet.
   int connect() const {
+    const int number = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    EXPECT_EQ(connect(number), 0);
+    return number;
+  }
+  int connect(int number) const {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     const std::string path = folder_.path() / "panel";
     std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
-    const int number = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    EXPECT_EQ(::connect(number, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    return number;
+    return ::connect(number, reinterpret_cast<sockaddr*>(&address), sizeof address);
   }
   static std::string read_all(int socket, std::size_t lines) {
     std::string text;
@@ -82,6 +88,25 @@ TEST_F(OpenPanel, HearsANewConnectionHoweverManyAreSilent) {
   for (std::size_t i = 0; i < 3 * PanelSocket::kMaxConnections; ++i) silent.push_back(connect());
   EXPECT_EQ(ask_panel(folder_.path(), "answer heard").value(), "ok heard");
   for (const int one : silent) ::close(one);
+}
+
+/// A new connection that cannot be accepted is no reason to do nothing but try.
+TEST_F(OpenPanel, TakesNoProcessorWhileFilesAreShortAndAnswersAfterwards) {
+  const int waiting = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int free = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  ::close(free);
+  ::rlimit before{}, short_of_files{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  short_of_files = {static_cast<::rlim_t>(free), before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &short_of_files), 0);
+  EXPECT_EQ(connect(waiting), 0);
+  EXPECT_EQ(::write(waiting, "answer x\n", 9), 9);
+  const std::clock_t begun = std::clock();  // of the process
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  EXPECT_LT(std::clock() - begun, CLOCKS_PER_SEC / 20);
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_EQ(read_all(waiting, 1), "ok x\n");
+  ::close(waiting);
 }
 
 TEST_F(OpenPanel, TakesTheSocketOfAFormerProcessOver) {
