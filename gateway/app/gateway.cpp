@@ -133,8 +133,13 @@ void Gateway::on(const ServerSeen& server, SteadyTime) {
 
 void Gateway::on(const StopRequested& stop, SteadyTime) {
   process::log_info("stopping on signal {} machine={}", stop.signal, parts_.options.machine);
-  (void)stop_jog("with the gateway");
   stop_requested_ = true;
+  (void)stop_without_run("with the gateway");
+  loop_.begin_interrupt("the gateway was stopped");
+}
+
+bool Gateway::is_at_rest() const {
+  return !jogger_.is_active() && !machine_->is_moving() && loop_.may_be_interrupted();
 }
 
 /// By a hold or an abort. False: nothing moves without a run.
@@ -153,7 +158,7 @@ bool Gateway::stop_homing(std::string_view why) {
 
 SteadyTime Gateway::turn(SteadyTime now) {
   server_.announce();
-  if (line_) line_->poll(now);
+  if (line_ && !stop_requested_) line_->poll(now);
   loop_.step(now);
   jogger_.step(now);
   answer_jog();
@@ -182,7 +187,7 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
   };
   look_at(server_.next_poll());
   if (run_.session) look_at(run_.session->feed().next_poll());
-  if (line_) look_at(line_->next_poll(now));
+  if (line_ && !stop_requested_) look_at(line_->next_poll(now));
   return std::max(next, now + std::chrono::milliseconds(1));
 }
 

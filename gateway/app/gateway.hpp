@@ -58,6 +58,7 @@ class Gateway final : public MachineGateway {
   SteadyTime turn(SteadyTime now) override;
   bool stop_requested() const override { return stop_requested_; }
 
+  bool is_at_rest() const override;
   /// See RunLoop::interrupt.
   Result<void> interrupt_run(const std::string& reason) override { return loop_.interrupt(reason); }
   /// Nothing is left to send.
@@ -86,6 +87,7 @@ class Gateway final : public MachineGateway {
   Reply start(const dds::Command& command);
   Reply operate(const dds::Command& command);
   Reply set_position(const dds::Command& command);
+  Reply stop_at_end();
   std::optional<Reply> refusal_of_jog(const dds::Command& command) const;
   std::optional<Reply> begin_jog(const dds::Command& command);
   void keep_jog(const dds::Command& command, const std::string& hold);
@@ -121,9 +123,9 @@ class Gateway final : public MachineGateway {
   Consent consent_;
   CommandValidity validity_;
   CommandLog commands_;
+  KeptEmergencyStop emergency_stop_;
   PanelController panel_;
   RunLoop loop_;
-  KeptEmergencyStop emergency_stop_;
   PositionSetter positions_;
   Jogger jogger_;
   std::unique_ptr<LineOperator> line_;  ///< null: programs come from the server

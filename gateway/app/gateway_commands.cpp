@@ -92,12 +92,19 @@ void Gateway::give_answer(const std::string& command, const Reply& reply) {
   commands_.answer(command, reply);
 }
 
+/// The run's end is on record already; the machine may still brake.
+Reply Gateway::stop_at_end() {
+  machine_->abort();
+  return {true, std::string(kHasStopped)};
+}
+
 Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {
   if (is_stop) {
     validity_.note_stop(command);
   } else if (auto refusal = validity_.refusal(command, parts_.clock.steady_now())) {
     return refuse(*std::move(refusal));
   }
+  if (stop_requested_ && !is_stop) return refuse(std::string(kIsStopping));
   if (command.action == CommandAction::Start) return start(command);
   const bool is_abort = command.action == CommandAction::Abort;
   if (is_abort && command.argument == dds::kJogAbort)
@@ -112,6 +119,7 @@ Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {
   }
   if (command.action == CommandAction::Switch) return panel_.set_switch(command);
   if (dds::is_override(command.action)) return panel_.set_override(command);
+  if (!run_.is_active() && stop_requested_ && ends_motion) return stop_at_end();
   if (!run_.is_active()) return refuse("no run is active");
   if (!command.run.empty() && command.run != run_.session->run().run)
     return refuse(fmt::format("run {} is not active, {} is", command.run, run_.session->run().run));
@@ -191,6 +199,8 @@ Reply Gateway::set_position(const dds::Command& command) {
   if (jogger_.is_active()) return refuse(std::string(kIsJogging));
   if (machine_->panel().emergency_stop) return refuse(std::string(kEmergencyStop));
   if (auto refusal = refusal_of_fault()) return *refusal;
+  if (const auto kept = outbox_.commit(); !kept)
+    return refuse(fmt::format("what was done before cannot be kept yet: {}", kept.error().what));
   const auto before = memory_.save();
   const auto change = positions_.set(command.argument, command.program, command.setup);
   if (!change) {
@@ -199,8 +209,6 @@ Reply Gateway::set_position(const dds::Command& command) {
   }
   Reply reply{true, valid_text(change->text, kMaxReason), change->details};
   memory_.stage();
-  if (const auto kept = outbox_.commit(); !kept)
-    return refuse(fmt::format("what was done before cannot be kept yet: {}", kept.error().what));
   recorder_.note_memory_change(std::string(dds::kChangePrefix) + command.id,
                                memory_.report(change->record));
   commands_.stage(command.id, reply);

@@ -23,6 +23,7 @@ void Gateway::on_jog(const dds::Command& command) {
 
 /// Not one for another gateway, nor a late one, whose sender does not expect the move any more.
 std::optional<Reply> Gateway::refusal_of_jog(const dds::Command& command) const {
+  if (stop_requested_) return refuse(std::string(kIsStopping));
   if (auto refusal = validity_.refusal(command, parts_.clock.steady_now()))
     return refuse(*std::move(refusal));
   if (auto refusal = panel_.refusal_without_consent(command)) return refusal;

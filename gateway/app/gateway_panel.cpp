@@ -62,6 +62,9 @@ void Gateway::on(const PanelRequest& request, SteadyTime) {
 
 Reply Gateway::carry_out(const PanelCommand& command) {
   using Verb = PanelCommand::Verb;
+  const bool is_switch = command.verb == Verb::EmergencyStop || command.text == "emergency_stop";
+  if (stop_requested_ && !is_switch && !gateway::is_stop(command))
+    return refuse(std::string(kIsStopping));
   switch (command.verb) {
     case Verb::RemoteEnable:
       if (command.value == 0) (void)stop_jog("without the remote enable");
@@ -92,6 +95,7 @@ Reply Gateway::carry_out(const PanelCommand& command) {
     recorder_.note_at_panel(machine_->status().origin, "cycle start");
     return {true, "the next text of the line begins a run"};
   }
+  if (!run_.is_active() && stop_requested_ && is_stop) return stop_at_end();
   if (!run_.is_active()) return refuse("no run is active");
   switch (command.verb) {
     case Verb::CycleStart:

@@ -13,7 +13,8 @@
 namespace dripline::gateway {
 namespace {
 
-constexpr std::chrono::seconds kFarewell{2};  ///< for the last records to be acknowledged
+constexpr std::chrono::seconds kRestLimit{20};  ///< for what moves to come to rest
+constexpr std::chrono::seconds kFarewell{2};    ///< for the last records to be acknowledged
 
 /// The endpoint of a gateway with a line alone: its outbox keeps what a server would get.
 class NoServer final : public dds::GatewayEndpoint {
@@ -212,26 +213,35 @@ Result<void> GatewayProcess::run(MachineGateway& gateway) {
   return done;
 }
 
-/// Runs until a stop is requested; then gives the records some time to be acknowledged.
+/// Runs until a stop is requested; then until the machine rests, and gives the records some time to
+/// be acknowledged. The panel and the network are heard all the time.
 Result<void> GatewayProcess::serve(MachineGateway& gateway) {
-  std::optional<SteadyTime> farewell;
+  std::optional<SteadyTime> rest_limit, farewell;
   AliveNotice notice(gateway);
   CertificateNotice certificate(options_, inbox, clock);
   SteadyTime next = clock.steady_now();
   for (;;) {
     for (const Incoming& incoming : inbox.take(next)) gateway.receive(incoming, clock.steady_now());
-    if (gateway.stop_requested() && !farewell) {
-      farewell = clock.steady_now() + kFarewell;
+    if (gateway.stop_requested() && !rest_limit) {
+      rest_limit = clock.steady_now() + kRestLimit;
       process::notify_stopping();
+    }
+    const bool is_late = rest_limit && clock.steady_now() >= *rest_limit;
+    if (rest_limit && !farewell && (is_late || gateway.is_at_rest())) {
+      if (is_late && !gateway.is_at_rest())
+        process::log_error("the machine does not come to rest within {} s machine={}",
+                           kRestLimit.count(), options_.machine);
+      farewell = clock.steady_now() + kFarewell;
       if (const auto done = gateway.interrupt_run("the gateway was stopped"); !done) return done;
     }
     next = gateway.turn(clock.steady_now());
     next = std::min(next, notice.turn(clock.steady_now()));
     next = std::min(next, certificate.turn(clock.steady_now()));
+    if (!rest_limit) continue;
+    next = std::min(next, clock.steady_now() + std::chrono::milliseconds(20));
     if (!farewell) continue;
     if (gateway.is_delivered() || !options_.has_server || clock.steady_now() >= *farewell)
       return {};
-    next = std::min(next, clock.steady_now() + std::chrono::milliseconds(20));
   }
 }
 

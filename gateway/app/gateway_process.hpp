@@ -24,8 +24,9 @@ class GatewayProcess {
   GatewayProcess(const GatewayProcess&) = delete;
   GatewayProcess& operator=(const GatewayProcess&) = delete;
 
-  /// Until a stop is requested; then the records get some time to be acknowledged. Errors: those of
-  /// the gateway's `recover` and `interrupt_run`.
+  /// Until a stop is requested; then the machine comes to rest (20 s at most), the run ends, and
+  /// the records get 2 s to be acknowledged. A second signal changes nothing. Errors: those of the
+  /// gateway's `recover` and `interrupt_run`.
   Result<void> run(MachineGateway& gateway);
 
  private:

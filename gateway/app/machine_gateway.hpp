@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "gateway/app/inbox.hpp"
 #include "protocol/base/clock.hpp"
@@ -20,7 +21,10 @@ class MachineGateway {
   virtual void receive(const Incoming& incoming, SteadyTime now) = 0;
   /// Does what is due; returns when to be called again, if nothing comes in before.
   virtual SteadyTime turn(SteadyTime now) = 0;
+  /// Nothing begins any more, and what moves is being stopped; stops still take effect.
   virtual bool stop_requested() const = 0;
+  /// After a stop was requested: the machine rests, and what it has executed is known.
+  virtual bool is_at_rest() const = 0;
   /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
   /// it.
   virtual Result<void> interrupt_run(const std::string& reason) = 0;
@@ -29,5 +33,9 @@ class MachineGateway {
   /// As the server gets it.
   virtual dds::Status status() const = 0;
 };
+
+inline constexpr std::string_view kIsStopping = "the gateway is stopping";
+inline constexpr std::string_view kHasStopped =
+    "the gateway is stopping: what it moved was stopped already, and gets nothing more";
 
 }  // namespace dripline::gateway

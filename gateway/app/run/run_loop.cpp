@@ -182,6 +182,8 @@ void RunLoop::check_end() {
   if (const auto& alarm = recorder.alarm()) {
     const std::string text = valid_text(alarm->text, kMaxReason);
     end(dds::RunOutcome::Alarmed, fmt::format("{} {}", alarm->id, text));
+  } else if (recorder.was_aborted() && is_interrupted()) {
+    end(dds::RunOutcome::Interrupted, why_interrupted_);
   } else if (recorder.was_aborted()) {
     end(dds::RunOutcome::Aborted,
         parts_.run.was_emergency_stopped ? "EMERGENCY STOP" : "aborted by command");
@@ -250,8 +252,25 @@ void RunLoop::try_to_finish(SteadyTime now) {
   parts_.on_over();
 }
 
+void RunLoop::begin_interrupt(const std::string& reason) {
+  why_interrupted_ = reason;
+  if (parts_.run.is_active() && !is_testing()) parts_.machine.abort();
+}
+
+/// By nothing else.
+bool RunLoop::is_interrupted() const {
+  return !why_interrupted_.empty() && !is_aborted_by_command_ && !parts_.run.was_emergency_stopped;
+}
+
+/// With the emergency stop pressed the run would not end, and with a full disk it cannot.
+bool RunLoop::may_be_interrupted() const {
+  return !parts_.run.is_active() || is_testing() || parts_.machine.panel().emergency_stop ||
+         !parts_.recorder.fault().empty();
+}
+
 Result<void> RunLoop::interrupt(const std::string& reason) {
   if (!parts_.run.session) return {};
+  if (!parts_.run.is_ending) (void)parts_.machine.poll(machine::Seconds{0}, 0);  // its last reports
   if (!parts_.run.is_ending) end(dds::RunOutcome::Interrupted, reason);
   if (!parts_.run.session) return {};
   return fail(Errc::Io, "{}", parts_.recorder.fault());

@@ -81,6 +81,11 @@ class RunLoop {
   void end_jog(bool is_certain);
   /// What the operator has to know of how the run has begun; empty: nothing.
   const std::string& notice() const { return notice_; }
+  /// The process ends: nothing more of the run reaches the machine, which comes to rest, and the
+  /// run ends as interrupted then.
+  void begin_interrupt(const std::string& reason);
+  /// Nothing of the run is left that the machine has to come to rest with.
+  bool may_be_interrupted() const;
   /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
   /// it.
   Result<void> interrupt(const std::string& reason);
@@ -121,12 +126,12 @@ class RunLoop {
   void keep_modes_of_part();
   Result<std::optional<RestartPlan>> plan_of(const report::ActiveRun& run,
                                              const StartOrigin& origin) const;
+  Result<void> keep_staged();
   Result<void> stage_start(const report::ActiveRun& run, const StartOrigin& origin,
                            Conditions conditions, RunSession& session);
   void run_slice(SteadyTime now);
   bool run_round(double& machine_seconds, SteadyTime deadline);
   bool wait_for_beginning(SteadyTime now);
-  Result<void> keep_staged();
   bool wait_out_fault(SteadyTime now);
   void commit_reports();
   void keep_state(SteadyTime now);
@@ -140,6 +145,7 @@ class RunLoop {
   void resolve_interrupted(const std::string& run, RunEnding& ending);
   void resolve_at_rest();
   void check_end();
+  bool is_interrupted() const;
   std::string overdue_reason() const;
   void commit_state();
   void end(dds::RunOutcome outcome, const std::string& reason);
@@ -147,6 +153,8 @@ class RunLoop {
 
   Parts parts_;
   bool is_held_by_fault_ = false;
+  std::string why_interrupted_;         ///< empty: the process does not end
+  bool is_aborted_by_command_ = false;  ///< this run
   /// What the control has in force after its last text, for an MDI or a program of a tape that
   /// follows.
   struct Modes {

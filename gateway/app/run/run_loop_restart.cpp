@@ -170,8 +170,8 @@ void RunLoop::stage_ending(dds::RunOutcome outcome) {
   ending.memory = parts_.memory.digest();
   const std::string& run = session.run().run;
   if (!is_completed) ending.in_hand = in_hand(run, ending.executed.executed);
-  // An aborted machine shows where it rests, and the operator may move it away.
-  if (outcome == dds::RunOutcome::Aborted) {
+  // A machine that was stopped shows where it rests, and the operator may move it away.
+  if (outcome == dds::RunOutcome::Aborted || outcome == dds::RunOutcome::Interrupted) {
     ending.rested_at = parts_.machine.rests_at();
     (void)resolve(ending.in_hand, ending.rested_at, ending.executed);
   }

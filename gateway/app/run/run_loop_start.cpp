@@ -188,6 +188,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   parts_.run.session->size_feed(parts_.options.speed.factor);
   parts_.run.last_message.clear();
   parts_.run.was_emergency_stopped = false;
+  is_aborted_by_command_ = false;
   last_step_ = parts_.clock.steady_now();
   last_state_ = MachineState::Idle;
   has_dropped_checkpoint_ = false;
@@ -225,7 +226,6 @@ std::optional<interpreter::PanelTables::DryRun> RunLoop::dry_run() const {
                                           panel.dry_run_spindle};
 }
 
-/// Puts the start on disk: from here on the run exists, and ends exactly once.
 /// What was done at the panel or over the network before, and could not be written then.
 Result<void> RunLoop::keep_staged() {
   const auto kept = parts_.outbox.commit();
@@ -233,6 +233,7 @@ Result<void> RunLoop::keep_staged() {
   return fail(kept.error().code, "what was done before cannot be kept yet: {}", kept.error().what);
 }
 
+/// Puts the start on disk: from here on the run exists, and ends exactly once.
 Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigin& origin,
                                   Conditions conditions, RunSession& session) {
   if (auto kept = keep_staged(); !kept) return kept;
@@ -258,8 +259,8 @@ Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigi
   const auto done = parts_.outbox.commit();
   if (done) return {};
   parts_.outbox.discard();
-  return fail(done.error().code, "the start cannot be kept: {}", done.error().what);
   parts_.recorder.cancel();
+  return fail(done.error().code, "the start cannot be kept: {}", done.error().what);
 }
 
 /// A program that has ended leaves the reader where the next start reads on.

@@ -56,6 +56,7 @@ Reply SerialGateway::carry_out(const dds::Command& command, bool is_stop) {
   } else if (auto refusal = validity_.refusal(command, parts_.clock.steady_now())) {
     return refuse(*std::move(refusal));
   }
+  if (stop_requested_ && !is_stop) return refuse(std::string(kIsStopping));
   if (command.action == CommandAction::Start) return start(command);
   machine::OperatorPanel panel;
   panel.emergency_stop = emergency_stop_.is_pressed();
@@ -64,7 +65,9 @@ Reply SerialGateway::carry_out(const dds::Command& command, bool is_stop) {
     return set_emergency_stop(command.value == 1, false);
   if (command.action == CommandAction::Jog || command.argument == dds::kJogAbort)
     return refuse(std::string(kHasOwnPanel));
-  if (!run_.is_active() || run_.is_ending()) return refuse("no run is active");
+  const bool has_run = run_.is_active() && !run_.is_ending();
+  if (!has_run && stop_requested_ && is_stop) return {true, std::string(kHasStopped)};
+  if (!has_run) return refuse("no run is active");
   if (!command.run.empty() && command.run != run_.run().run)
     return refuse(fmt::format("run {} is not active, {} is", command.run, run_.run().run));
   return operate(command);
@@ -151,7 +154,10 @@ Reply SerialGateway::carry_out(const PanelCommand& command) {
   const bool has_run = run_.is_active() && !run_.is_ending();
   if (!has_run && command.verb == Verb::Abort && end_transfer(std::string(kAbortedAtPanel)))
     return {};
+  const bool is_stop = command.verb == Verb::Hold || command.verb == Verb::Abort;
+  if (!has_run && stop_requested_ && is_stop) return {true, std::string(kHasStopped)};
   if (!has_run) return refuse("no run is active");
+  if (stop_requested_ && !is_stop) return refuse(std::string(kIsStopping));
   if (command.verb == Verb::Hold) return reply_of(run_.hold());
   if (command.verb == Verb::Abort) {
     note_at_panel("abort");
@@ -168,6 +174,7 @@ Reply SerialGateway::carry_out(const PanelCommand& command) {
 Reply SerialGateway::set_remote_enable(bool is_enabled) {
   if (consent_.is_unattended())
     return refuse("this machine is unattended (--unattended yes): the network may start it");
+  if (is_enabled && stop_requested_) return refuse(std::string(kIsStopping));
   if (is_enabled && emergency_stop_.is_pressed())
     return refuse(std::string(kEmergencyStopIsPressed));
   if (consent_.is_given() == is_enabled) return {};

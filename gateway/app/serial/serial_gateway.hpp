@@ -49,6 +49,7 @@ class SerialGateway final : public MachineGateway {
   void receive(const Incoming& incoming, SteadyTime now) override;
   SteadyTime turn(SteadyTime now) override;
   bool stop_requested() const override { return stop_requested_; }
+  bool is_at_rest() const override { return true; }  // closing the line is all it can do
   Result<void> interrupt_run(const std::string& reason) override;
   bool is_delivered() const override {
     return parts_.outbox.unacknowledged() == 0 && commands_.is_sent();
@@ -101,8 +102,8 @@ class SerialGateway final : public MachineGateway {
   SerialTransfer transfer_;
   LineAnswers answers_;
   const KeptTransfer kept_transfer_;
-  std::shared_ptr<TaskQueue> tasks_;
   KeptEmergencyStop emergency_stop_;
+  std::shared_ptr<TaskQueue> tasks_;
   std::shared_ptr<line::PortLine> port_;
   SteadyTime next_tick_{};
   bool stop_requested_ = false;

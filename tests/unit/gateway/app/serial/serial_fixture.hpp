@@ -74,6 +74,13 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
     options_.line.reset();
     wire_ = {};
   }
+  /// As the process does at SIGTERM; it is not over then, its line is.
+  void stop() {
+    gateway_->receive(StopRequested{15}, clock_.steady_now());
+    ASSERT_TRUE(gateway_->is_at_rest());
+    ASSERT_TRUE(gateway_->interrupt_run("the gateway was stopped"));
+    line_ = nullptr;
+  }
   /// The next life finds the folder as a kill leaves it.
   void kill() {
     const auto copy = folder_.path().parent_path() / (folder_.path().filename().string() + "-copy");
@@ -97,7 +104,7 @@ class SerialGatewayTest : public testing::Test, public dds::GatewayEndpoint {
       gateway_->turn(clock_.steady_now());
       serve();
       clock_.advance(kStep);
-      line_->move(kStep);
+      if (line_ != nullptr) line_->move(kStep);
       if (each_step) each_step();
     }
     gateway_->turn(clock_.steady_now());
