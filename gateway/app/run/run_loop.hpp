@@ -154,7 +154,7 @@ class RunLoop {
   Parts parts_;
   bool is_held_by_fault_ = false;
   std::string why_interrupted_;         ///< empty: the process does not end
-  bool is_aborted_by_command_ = false;  ///< this run
+  bool is_aborted_by_command_ = false;  ///< this run, before that
   /// What the control has in force after its last text, for an MDI or a program of a tape that
   /// follows.
   struct Modes {

@@ -35,7 +35,7 @@ void RunLoop::end_test(const ProgramCheck& check) {
 
 void RunLoop::abort() {
   if (is_testing()) return end(dds::RunOutcome::Aborted, "test run: aborted by command");
-  is_aborted_by_command_ = true;
+  if (why_interrupted_.empty()) is_aborted_by_command_ = true;
   parts_.machine.abort();
 }
 

@@ -69,6 +69,14 @@ TEST(ProcessEnd, TakesStopsAndNothingElse) {
   EXPECT_EQ(fixture.count(RecordKind::RunStarted), 1U);
 }
 
+TEST(ProcessEnd, IsWhatEndsTheRunWhereAnAbortComesAfterIt) {
+  GatewayFixture fixture("1x");
+  begin_moving(fixture);
+  ask_to_stop(fixture);
+  EXPECT_EQ(fixture.panel("abort"), "ok");
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Interrupted);
+}
+
 TEST(ProcessEnd, OfARunThatTheOperatorAbortedIsAnAbort) {
   GatewayFixture fixture("1x");
   begin_moving(fixture);
