@@ -2,6 +2,7 @@
 // program. The board is the witness. DRIPLINE_KILLS changes how often (20 by default, of each).
 #include <gtest/gtest.h>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <random>
 
@@ -13,11 +14,12 @@ namespace {
 using test_support::eventually;
 using test_support::GrblBoard;
 
-constexpr double kSpeed = 2;            ///< of the board's time
-constexpr int kFeed = 1200;             ///< a block of 1 mm takes 50 ms of the board's time
-constexpr std::size_t kSilent = 1;      ///< the first block: modes
-constexpr std::size_t kMaxAhead = 23;   ///< blocks in the 1.15 s that the board may have ahead
-constexpr std::size_t kOwnerLate = 20;  ///< blocks until the journal has them, under load
+constexpr double kSpeed = 2;                ///< of the board's time
+constexpr int kFeed = 1200;                 ///< a block of 1 mm takes 50 ms of the board's time
+constexpr std::size_t kSilent = 1;          ///< the first block: modes
+constexpr std::size_t kMaxAhead = 23;       ///< blocks in the 1.15 s that the board may have ahead
+constexpr std::size_t kMaxLateBlocks = 15;  ///< until a signal is taken, under load
+constexpr std::size_t kOwnerLate = 20;      ///< blocks until the journal has them, under load
 
 int kills() {
   const char* wanted = std::getenv("DRIPLINE_KILLS");
@@ -99,6 +101,27 @@ class GrblKill : public GrblSystem {
   std::string id;
   std::size_t at_cut = 0, truth = 0, executed = 0;
 };
+
+TEST_F(GrblKill, AGatewayThatIsStoppedStopsTheBoardFirstAndKnowsHowFarItWas) {
+  begin();
+  for (int stop = 0; stop < 3; ++stop) {
+    cut_off([&] {
+      system->server().signal(SIGSTOP);  // so the gateway waits for its acknowledgments
+      system->gateway().signal(SIGTERM);
+      for (const char* verb : {"hold", "abort"}) {
+        const auto stopped = panel({verb});
+        EXPECT_EQ(stopped.output.find("refused"), std::string::npos) << stopped.output;
+      }
+      system->gateway().signal(SIGTERM);
+      EXPECT_EQ(system->gateway().wait(), 0);
+      EXPECT_TRUE(rests());
+    });
+    EXPECT_LE(truth, at_cut + kMaxLateBlocks) << "what the board had was dropped";
+    system->server().signal(SIGCONT);
+    start_gateway();
+    expect_truth("interrupted", 0);
+  }
+}
 
 TEST_F(GrblKill, OfTheGatewayDoesNoBlockTwiceSkipsNoneAndClaimsNone) {
   begin();

@@ -1,6 +1,7 @@
 // Server, gateway and a real LinuxCNC.
 #include <atomic>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -217,6 +218,31 @@ TEST_F(LinuxCncSystem, AHeldJogMovesWhileItIsKept) {
   EXPECT_GT(at, begun_at);
   EXPECT_TRUE(linuxcnc->rests(std::chrono::seconds(1)));
   EXPECT_EQ(x(), at);
+}
+
+TEST_F(LinuxCncSystem, AStoppedGatewayStopsTheAxesFirstAndKnowsHowFarTheyWere) {
+  start("rs274ngc");
+  if (IsSkipped() || HasFatalFailure()) return;
+  system->push("path", straight_program(380, 1200));
+  turn_on("path");
+  const std::string id = start_run("path");
+  ASSERT_TRUE(eventually([&] { return linuxcnc->position()[0] > 5; }));
+  system->server().signal(SIGSTOP);  // so the gateway waits for its acknowledgments
+  system->gateway().signal(SIGTERM);
+  const auto held = panel({"hold"});
+  EXPECT_EQ(held.output.find("refused"), std::string::npos) << held.output;
+  EXPECT_EQ(system->gateway().wait(), 0);
+  ASSERT_TRUE(linuxcnc->rests());
+  const double at = linuxcnc->position()[0];
+  EXPECT_LT(at, 379);
+  system->server().signal(SIGCONT);
+  start_gateway();
+  const auto run = system->wait_ended(id);
+  EXPECT_EQ(run.value("state", ""), "interrupted") << run.dump();
+  // Block 1 does not move; block n + 1 ends at X n.
+  EXPECT_NEAR(run.value("executed", 0.0), std::floor(at) + 1, 1.001) << at << run.dump();
+  EXPECT_TRUE(linuxcnc->rests(std::chrono::seconds(1)));
+  EXPECT_EQ(linuxcnc->position()[0], at) << "nothing moves by itself";
 }
 
 TEST_F(LinuxCncSystem, AKilledGatewayLeavesNoMotionAndClaimsNothing) {
