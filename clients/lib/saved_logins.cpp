@@ -46,7 +46,7 @@ Result<Json> read_logins(const fs::path& path) {
 
 /// The whole file or none of it, for its owner alone.
 Result<void> write_logins(const fs::path& path, const Json& logins) {
-  if (auto made = make_private_folder(path.parent_path()); !made) return fail(made.error());
+  if (auto made = make_private_subfolder(path.parent_path()); !made) return fail(made.error());
   if (replace_private_file(path, logins.dump(1) + "\n")) return {};
   return failed_with_errno(path);
 }

@@ -15,9 +15,9 @@ class StateFolder {
   /// the owner's process id), Denied, Io.
   static Result<StateFolder> open(const std::filesystem::path& folder);
 
-  std::filesystem::path outbox() const { return folder_ / "outbox.sqlite"; }
-  std::filesystem::path journal() const { return folder_ / "run.journal"; }
-  std::filesystem::path motion_journal() const { return folder_ / "motion.journal"; }
+  std::filesystem::path outbox() const { return folder_ / kOutbox; }
+  std::filesystem::path journal() const { return folder_ / kJournal; }
+  std::filesystem::path motion_journal() const { return folder_ / kMotionJournal; }
   std::filesystem::path recordings() const { return folder_ / "recordings"; }
   std::filesystem::path uploads() const { return folder_ / "uploads"; }
   std::filesystem::path kept_transfer() const { return folder_ / "line-transfer.json"; }
@@ -25,6 +25,9 @@ class StateFolder {
   std::filesystem::path emergency_stop() const { return folder_ / "emergency-stop"; }
 
  private:
+  static constexpr const char* kOutbox = "outbox.sqlite";
+  static constexpr const char* kJournal = "run.journal";
+  static constexpr const char* kMotionJournal = "motion.journal";
   StateFolder(std::filesystem::path folder, FileLock lock)
       : folder_(std::move(folder)), lock_(std::move(lock)) {}
   std::filesystem::path folder_;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,10 +11,17 @@
 
 namespace dripline {
 
+/// Paths within a folder, of which one at least is in each of its kind that was used before.
+using FolderMarks = std::initializer_list<const char*>;
+
 /// Creates a folder for its owner alone. An existing folder that others can enter, or its group can
-/// write, is closed to them; the result is then a text for the log, otherwise empty. Errors: Denied
-/// (it has another owner), Io.
-Result<std::string> make_private_folder(const std::filesystem::path& folder);
+/// write, is closed to them; the result is then a text for the log, otherwise empty. A folder that
+/// may be in use for something else is not closed, and stays as it is: one with content and none
+/// of the marks, of another owner, with the sticky bit, or at the top of the file system. Errors:
+/// Denied (that, or it cannot be closed), Io.
+Result<std::string> make_private_folder(const std::filesystem::path& folder, FolderMarks marks);
+/// The same of a folder that is ours by its place or name, whatever is in it.
+Result<std::string> make_private_subfolder(const std::filesystem::path& folder);
 
 /// The interface to the environment, so that tests control it; nullopt for an unset or empty
 /// variable.

@@ -47,7 +47,9 @@ Result<std::string> secret_in(const std::filesystem::path& path, std::string_vie
 }  // namespace
 
 Result<StateFolder> StateFolder::open(const std::string& path) {
-  const auto closed = make_private_folder(path);
+  // `dnc pki init` may have been here before the server.
+  const auto closed = make_private_folder(
+      path, {kDatabase, kSigningKey, kIdentity, kServer, kLock, "pki/authority"});
   if (!closed) return fail(closed.error().code, "state {}", closed.error().what);
   if (!closed->empty()) process::log_warning("state {}", *closed);
   return StateFolder(std::filesystem::absolute(path));
@@ -105,7 +107,7 @@ Result<void> StateFolder::expect_database(bool begin_empty) const {
 }
 
 Result<FileLock> StateFolder::lock() const {
-  return FileLock::acquire(path_ / "server.lock", path_.string());
+  return FileLock::acquire(path_ / kLock, path_.string());
 }
 
 Result<std::string> StateFolder::server_id() const {

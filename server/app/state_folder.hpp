@@ -81,6 +81,7 @@ class StateFolder {
   static constexpr const char* kIdentity = "database.id";
   static constexpr const char* kServer = "server.id";
   static constexpr const char* kTerm = "term";
+  static constexpr const char* kLock = "server.lock";
   static constexpr const char* kSigningKey = "signing.key";
   explicit StateFolder(std::filesystem::path path) : path_(std::move(path)) {}
   std::filesystem::path announcement_file() const { return path_ / "dncd.json"; }

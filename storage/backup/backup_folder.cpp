@@ -83,10 +83,9 @@ BackupFolder::BackupFolder(fs::path path, FileLock lock)
     : path_(std::move(path)), lock_(std::move(lock)), chunks_(path_ / "chunks") {}
 
 Result<BackupFolder> BackupFolder::open(const fs::path& path) {
-  for (const auto& folder : {path, path / "chunks"}) {
-    const auto made = make_private_folder(folder);
-    if (!made) return fail(made.error().code, "backups {}", made.error().what);
-  }
+  auto made = make_private_folder(path, {"chunks"});
+  if (made) made = make_private_subfolder(path / "chunks");
+  if (!made) return fail(made.error().code, "backups {}", made.error().what);
   auto lock = FileLock::acquire(path / "lock", fmt::format("the backups in {}", path.string()));
   if (!lock) return fail(lock.error());
   return BackupFolder(fs::absolute(path), *std::move(lock));
@@ -261,7 +260,7 @@ Result<void> BackupFolder::restore(const std::string& id, const fs::path& folder
   const fs::path fresh = fs::absolute(folder).lexically_normal().string() + ".restoring";
   std::error_code ec;
   fs::remove_all(fresh, ec);
-  if (const auto made = make_private_folder(fresh); !made) return fail(made.error());
+  if (const auto made = make_private_subfolder(fresh); !made) return fail(made.error());
   const std::uint64_t total = found->size();
   std::uint64_t done = 0;
   const auto restored = [&]() -> Result<void> {

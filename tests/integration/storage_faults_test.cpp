@@ -44,6 +44,7 @@ TEST(FullDisk, TheServerWorksWithoutItsAnnouncementAndMakesItLater) {
   System system;
   const auto in_the_way = system.server_state() / "dncd.json.new";
   std::filesystem::create_directories(in_the_way / "full");
+  std::filesystem::permissions(system.server_state(), std::filesystem::perms::owner_all);
   system.launch_server();
   EXPECT_TRUE(test_support::eventually(
       [&] { return system.server().output().find("dncd listening at") != std::string::npos; }));

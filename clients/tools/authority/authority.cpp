@@ -107,7 +107,7 @@ Result<void> check_shop_name(std::string_view name) {
 Result<void> Authority::create(const fs::path& folder, const std::string& shop,
                                const Clock& clock) {
   if (auto checked = check_shop_name(shop); !checked) return checked;
-  if (auto made = make_private_folder(folder); !made) return fail(made.error());
+  if (auto made = make_private_folder(folder, {"authority"}); !made) return fail(made.error());
   const auto locked = lock(folder);
   if (!locked) return fail(locked.error());
   std::error_code ec;
@@ -209,7 +209,7 @@ Result<Issued> Authority::make(const Holder& holder, int days) {
   const auto files = make_files(issued);
   if (!files) return fail(files.error());
   const auto folder = folder_of(holder);
-  if (auto made = make_private_folder(folder.parent_path()); !made) return fail(made.error());
+  if (auto made = make_private_subfolder(folder.parent_path()); !made) return fail(made.error());
   if (auto written = replace_folder(folder, *files); !written) return fail(written.error());
   return issued;
 }
