@@ -3,6 +3,8 @@
 #include <httplib.h>
 #include <algorithm>
 
+#include "protocol/pki/expected_host.hpp"
+
 namespace dripline::client {
 namespace {
 
@@ -36,6 +38,13 @@ std::string_view reason(httplib::Error error) {
     default:
       return "the HTTP exchange failed";
   }
+}
+
+/// Of an address that checked_url has found good: without scheme, port and brackets.
+std::string host_of(const std::string& url) {
+  const std::string host = url.substr(url.find("://") + 3);
+  if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
+  return host.substr(0, host.find(':'));
 }
 
 /// Before there was a connection, nothing was sent over it.
@@ -82,9 +91,14 @@ class HttplibHttp final : public Http {
     client_.set_read_timeout(options.read_timeout);
     client_.set_write_timeout(options.read_timeout);
     if (address.ca_file) client_.set_ca_cert_path(*address.ca_file);
+    // The library's own look takes a common name, too, and a bare `*`.
+    SSL_CTX* const context = client_.ssl_context();
+    if (context && pki::expect_host(SSL_CTX_get0_param(context), host_of(address.url)))
+      is_host_expected_ = true;
   }
 
   Reply<HttpResponse> send(const HttpRequest& request) override {
+    if (is_secure() && !is_host_expected_) return unreachable("it has no name", true);
     HttpResponse response;
     BodyReceiver receiver(request, response);
     const httplib::Request raw = make_request(request, receiver);
@@ -99,15 +113,24 @@ class HttplibHttp final : public Http {
                     "the answer of {} to {} is longer than {} bytes", address_.url, request.path,
                     request.max_body);
     }
-    return failed(
-        {Failure::Kind::Unreachable, Errc::Timeout,
-         fmt::format("server {} is not reachable: {}", address_.url, reason(result.error())),
-         is_before_sending(result.error())});
+    const bool is_other_host = result.error() == httplib::Error::SSLServerVerification &&
+                               pki::is_other_host(client_.get_openssl_verify_result());
+    return unreachable(is_other_host ? "its certificate is for another host, expected its name or "
+                                       "address as a subjectAltName"
+                                     : reason(result.error()),
+                       is_before_sending(result.error()));
   }
 
   void stop() override { client_.stop(); }
 
  private:
+  bool is_secure() const { return address_.url.starts_with("https:"); }
+
+  tl::unexpected<Failure> unreachable(std::string_view why, bool is_unsent) const {
+    return failed({Failure::Kind::Unreachable, Errc::Timeout,
+                   fmt::format("server {} is not reachable: {}", address_.url, why), is_unsent});
+  }
+
   httplib::Request make_request(const HttpRequest& request, BodyReceiver& receiver) const {
     httplib::Request raw;
     raw.method = request.method;
@@ -140,6 +163,7 @@ class HttplibHttp final : public Http {
 
   ServerAddress address_;
   httplib::Client client_;
+  bool is_host_expected_ = false;
 };
 
 }  // namespace

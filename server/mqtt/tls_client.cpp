@@ -1,8 +1,9 @@
 #include "server/mqtt/tls_client.hpp"
 
 #include <openssl/err.h>
-#include <openssl/x509v3.h>
 #include <array>
+
+#include "protocol/pki/expected_host.hpp"
 
 namespace dripline::mqtt {
 namespace {
@@ -53,9 +54,9 @@ Result<TlsClient> TlsClient::make(const MqttSettings& settings) {
   Session session(SSL_new(context.get()));
   if (!session) return fail(Errc::Io, "mqtt: TLS: {}", tls_reason());
   const char* host = settings.host.c_str();
-  const bool is_address = X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(session.get()), host) == 1;
-  const bool is_named = is_address || (SSL_set1_host(session.get(), host) == 1 &&
-                                       SSL_set_tlsext_host_name(session.get(), host) == 1);
+  const auto kind = pki::expect_host(SSL_get0_param(session.get()), settings.host);
+  const bool is_named = kind && (*kind == pki::HostKind::Address ||
+                                 SSL_set_tlsext_host_name(session.get(), host) == 1);
   BIO* const incoming = BIO_new(BIO_s_mem());
   BIO* const outgoing = BIO_new(BIO_s_mem());
   SSL_set_bio(session.get(), incoming, outgoing);  // owns both

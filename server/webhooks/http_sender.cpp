@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "protocol/base/descriptor.hpp"
+#include "protocol/pki/expected_host.hpp"
 #include "server/webhooks/connection_bytes.hpp"
 #include "server/webhooks/delivery.hpp"
 
@@ -118,7 +119,7 @@ class HttplibSender final : public Sender {
         if (stop.stop_requested() || std::chrono::steady_clock::now() >= end)
           return fail(Errc::Timeout, "{}: no answer in time", place.origin);
         if (is_unreached(answer.error()) && &address != &addresses->back()) continue;
-        return fail(refusal(answer.error(), place.origin));
+        return fail(refusal(answer.error(), place.origin, exchange));
       }
       if (answer) exchange.status = answer->status;
       if (exchange.status >= 200 && exchange.status < 300) return {};
@@ -134,8 +135,9 @@ class HttplibSender final : public Sender {
   static constexpr std::uint64_t kMaxExchange = 1024 * 1024;
 
   struct Exchange {
-    std::size_t received = 0;  ///< of the answer's text
-    int status = 0;            ///< it counts where the text was too long to be read to its end
+    std::size_t received = 0;    ///< of the answer's text
+    int status = 0;              ///< it counts where the text was too long to be read to its end
+    bool is_other_host = false;  ///< whose certificate it has shown
   };
   struct Attempt {
     const Delivery& delivery;
@@ -149,18 +151,29 @@ class HttplibSender final : public Sender {
   }
 
   httplib::Result attempt(const Attempt& what, Exchange& exchange) const {
-    std::unique_ptr<httplib::ClientImpl> client;
-    if (what.place.is_secure)
-      client = std::make_unique<httplib::SSLClient>(what.place.host, what.place.port);
-    else
-      client = std::make_unique<httplib::ClientImpl>(what.place.host, what.place.port);
-    client->set_hostname_addr_map({{what.place.host, what.address}});
-    client->set_follow_location(false);
-    client->set_url_encode(false);
-    client->set_connection_timeout(timeout_);
-    client->set_read_timeout(timeout_);
-    client->set_write_timeout(timeout_);
-    client->set_socket_options([&what](int made) { what.socket.set(made); });
+    if (!what.place.is_secure) {
+      httplib::ClientImpl client(what.place.host, what.place.port);
+      return attempt_by(client, what, exchange);
+    }
+    httplib::SSLClient client(what.place.host, what.place.port);
+    // The library's own look takes a common name, too, and a bare `*`.
+    SSL_CTX* const context = client.ssl_context();
+    if (!context || !pki::expect_host(SSL_CTX_get0_param(context), what.place.host))
+      return {nullptr, httplib::Error::SSLConnection};
+    auto answer = attempt_by(client, what, exchange);
+    exchange.is_other_host = pki::is_other_host(client.get_openssl_verify_result());
+    return answer;
+  }
+
+  httplib::Result attempt_by(httplib::ClientImpl& client, const Attempt& what,
+                             Exchange& exchange) const {
+    client.set_hostname_addr_map({{what.place.host, what.address}});
+    client.set_follow_location(false);
+    client.set_url_encode(false);
+    client.set_connection_timeout(timeout_);
+    client.set_read_timeout(timeout_);
+    client.set_write_timeout(timeout_);
+    client.set_socket_options([&what](int made) { what.socket.set(made); });
     httplib::Request request = request_of(what.delivery, what.place.path);
     // The answer's text is of no use here, and may be long.
     request.content_receiver = [&exchange](const char*, std::size_t size, std::uint64_t,
@@ -172,7 +185,7 @@ class HttplibSender final : public Sender {
       exchange.status = head.status;
       return true;
     };
-    return client->send(request);
+    return client.send(request);
   }
 
   static httplib::Request request_of(const Delivery& delivery, const std::string& path) {
@@ -189,8 +202,10 @@ class HttplibSender final : public Sender {
     return request;
   }
 
-  static Error refusal(httplib::Error error, const std::string& origin) {
+  static Error refusal(httplib::Error error, const std::string& origin, const Exchange& exchange) {
     const bool is_untrusted = error == httplib::Error::SSLServerVerification;
+    if (is_untrusted && exchange.is_other_host)
+      return {Errc::Denied, origin + ": its certificate is for another host (subjectAltName)"};
     if (is_untrusted) return {Errc::Denied, origin + ": its certificate is not trusted"};
     switch (error) {
       case httplib::Error::Connection:

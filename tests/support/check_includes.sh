@@ -51,12 +51,12 @@ server/measurements: protocol/base protocol/measurement protocol/process storage
 server/offsets: protocol/base protocol/measurement protocol/process storage gateway/interpreter clients/tools/statistics server/library server/offsets
 server/api: protocol storage gateway/interpreter gateway/line clients/tools/charts clients/tools/measurement_files clients/tools/report_template clients/tools/studies server/library server/machines server/ports server/identity server/paths server/imports server/measurements server/offsets server/folders server/webhooks server/mqtt server/api
 server/folders: protocol/base protocol/process storage server/library server/machines server/paths server/folders
-server/webhooks: protocol/base protocol/process storage server/webhooks
-server/mqtt: protocol/base protocol/process storage server/machines server/mqtt
+server/webhooks: protocol/base protocol/pki protocol/process storage server/webhooks
+server/mqtt: protocol/base protocol/pki protocol/process storage server/machines server/mqtt
 server/mtconnect: protocol storage gateway/interpreter server/library server/machines server/api server/mtconnect
 server/web: protocol/base server/api server/web
 server/app: protocol storage server
-clients/lib: protocol/base clients/lib
+clients/lib: protocol/base protocol/pki clients/lib
 clients/tools: protocol/base protocol/measurement protocol/wire gateway/interpreter clients/tools
 clients/tools/report_template: protocol/base protocol/measurement clients/tools/report_template
 clients/cli: protocol/base protocol/archive protocol/pki protocol/audit protocol/measurement protocol/wire protocol/serial gateway/interpreter clients
