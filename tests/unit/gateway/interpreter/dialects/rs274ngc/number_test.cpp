@@ -6,7 +6,7 @@
 /// Rows: NGC-001
 ///
 /// Numbers that the reader of usual words takes, and their neighbors that it leaves to the slow
-/// one: the values are the nearest doubles either way.
+/// one: the values are the nearest doubles in both.
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
