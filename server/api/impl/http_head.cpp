@@ -111,6 +111,12 @@ Result<Request> to_request(const RequestHead& head) {
   if (head.version() >= kHttp11 && !request.headers.contains("host")) {
     return fail(Errc::Syntax, "an HTTP/1.1 request names the server in a header field Host");
   }
+  // A list of equal lengths is one length to some proxies, and none to others.
+  if (const auto length = request.headers.find("content-length");
+      length != request.headers.end() &&
+      length->second.find_first_not_of("0123456789") != std::string::npos) {
+    return fail(Errc::Syntax, "Content-Length is one number");
+  }
   // A proxy could see the end of a body with another coding at another place.
   if (const auto coding = request.headers.find("transfer-encoding");
       coding != request.headers.end() &&
@@ -128,7 +134,12 @@ std::string head_text(const Response& response, const Framing& framing) {
     if (is_safe(name) && is_safe(value)) text += fmt::format("{}: {}\r\n", name, value);
   };
   if (!response.content_type.empty()) add("Content-Type", response.content_type);
-  for (const auto& [name, value] : response.headers) add(name, value);
+  bool states_cache = false;
+  for (const auto& [name, value] : response.headers) {
+    add(name, value);
+    states_cache = states_cache || name == "Cache-Control";
+  }
+  if (!states_cache) add("Cache-Control", "no-store");  // it may be for one user alone
   if (framing.is_chunked) {
     add("Transfer-Encoding", "chunked");
   } else if (framing.length && response.status != 204 && response.status != 304) {

@@ -99,7 +99,6 @@ Response sign_in(Services& services, const Request& request) {
   json view = session_json(services, *caller);
   if (!is_page) view["secret"] = issued->secret;
   Response response = json_response(201, view);
-  response.headers.emplace_back("Cache-Control", "no-store");
   if (is_page) {
     response.headers.emplace_back("Set-Cookie",
                                   identity::set_cookie(issued->secret, services.has_tls));
@@ -178,9 +177,7 @@ Response add_token(Services& services, const Request& request) {
   if (!issued) return refused(issued.error());
   json view = token_json(issued->credential, issued->credential.role);
   view["secret"] = issued->secret;
-  Response response = json_response(201, view);
-  response.headers.emplace_back("Cache-Control", "no-store");
-  return response;
+  return json_response(201, view);
 }
 
 Response revoke_token(Services& services, const Request& request) {

@@ -243,10 +243,11 @@ TEST_F(HttpAttack, AnOldClientGetsABodyUntilTheEndOfTheConnection) {
   EXPECT_TRUE(one.wait_for_end());
 }
 
-TEST_F(HttpAttack, AnswersCarryNosniff) {
+TEST_F(HttpAttack, AnswersAreNeitherGuessedNorKept) {
   start();
-  EXPECT_NE(exchange(get("/health", ""), "fine").find("X-Content-Type-Options: nosniff\r\n"),
-            std::string::npos);
+  const std::string answer = exchange(get("/health", ""), "fine");
+  EXPECT_NE(answer.find("X-Content-Type-Options: nosniff\r\n"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("Cache-Control: no-store\r\n"), std::string::npos) << answer;
 }
 
 struct BadCase {
@@ -276,6 +277,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"two_hosts", "GET /x HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", "400"},
         BadCase{"two_tokens",
                 get("/x", "Authorization: Bearer right\r\nAuthorization: Bearer wrong\r\n"), "400"},
+        BadCase{"list_of_lengths", kHead + "Content-Length: 4, 4\r\n\r\nabcd", "400"},
         BadCase{"two_lengths", kHead + "Content-Length: 3\r\nContent-Length: 4\r\n\r\nabcd", "400"},
         BadCase{"length_and_chunks",
                 kHead + "Content-Length: 3\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", "400"},
