@@ -15,6 +15,7 @@ const kOthers: { [path: string]: string } = {
   reports: 'the page lists runs, with those that have lines',
   'machines/{name}': 'the event stream and the list bring machines whole',
   'offsets/{id}': 'the list brings proposals whole',
+  'machines/{name}/jog/hold': 'dnc holds a jog; the page moves by steps, which need no repeated request',
 };
 
 function sourcesOf(folder: string): string[] {
