@@ -49,8 +49,6 @@ INSTANTIATE_TEST_SUITE_P(
         WordCase{"fanuc_radius_alone", "fanuc", "G2R3.F100.\nM30\n", "warning", "R"},
         WordCase{"fanuc_center_of_a_rapid", "fanuc", "G0X5.I3.\nM30\n", "warning", "I3"},
         WordCase{"fanuc_g53_in_increments", "fanuc", "G91G53X5.\nM30\n", "warning", "G53"},
-        WordCase{"tektronix_level_without_cycle", "tektronix-1704", "%\nF2000G01X100R50\nM30\n",
-                 "warning", "R50"},
         WordCase{"prototrak_level", "prototrak-plus", "G101 XE1. Z-1. F10. ;\n%\n", "warning", "Z"},
         WordCase{"prototrak_circle_word", "prototrak-plus", "G100 X1. HL5 ;\n%\n", "warning", "HL"},
         WordCase{"prototrak_begin_of_a_position", "prototrak-plus", "G00 X1. XB2. ;\n%\n", "alarm",

@@ -153,7 +153,7 @@ TEST_F(LinuxCncHelper, AHoldDropsAResumeAndKeepsAnOverride) {
 TEST_F(LinuxCncHelper, EndsWhereTheTaskTakesNoCommand) {
   make_busy();
   order(kOverride);
-  EXPECT_TRUE(hears("LinuxCNC takes no commands"));
+  EXPECT_TRUE(hears("LinuxCNC takes no commands")) << said_;
 }
 
 }  // namespace
