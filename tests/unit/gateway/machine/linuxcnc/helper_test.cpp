@@ -70,11 +70,11 @@ class LinuxCncHelper : public testing::Test {
   static constexpr const char* kJog = R"("do":"jog","axis":0,"velocity":10.0,"distance":2.0)";
   static constexpr const char* kOverride =
       R"("do":"override","feed":0.5,"rapid":1.0,"spindle":1.0)";
+  std::string said_;  ///< by the helper
 
  private:
   test_support::TemporaryFolder folder_;
   std::optional<HelperProcess> helper_;
-  std::string said_;
   int number_ = 0;
 };
 
