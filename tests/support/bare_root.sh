@@ -21,6 +21,8 @@ make_bare_root() {
 inside() {
   unshare --mount --pid --fork --mount-proc="$root/proc" bash -c '
     set -e
+    mount --rbind "$0" "$0"  # a root of its own: unshare in it wants to change how its mounts spread
+    cd "$0"
     mount -t devtmpfs devtmpfs "$0/dev" 2>/dev/null || mount --rbind /dev "$0/dev"
     mkdir -p "$0/dev/pts" "$0/dev/shm"
     mount -t devpts -o newinstance,ptmxmode=0666 devpts "$0/dev/pts"

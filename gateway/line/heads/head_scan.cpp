@@ -6,11 +6,6 @@
 #include <vector>
 
 namespace dripline::line {
-namespace {
-
-constexpr std::size_t kMaxBlock = 4096;  ///< the rest of a longer block is not searched
-
-}  // namespace
 
 std::string head_in_one_line(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
@@ -31,7 +26,7 @@ bool HeadScan::take(char c) {
   if (at_ == place_.byte && at_ > 0 && !block_.empty()) scan_.skip(std::exchange(block_, {}));
   ++at_;
   if (c != '\n') {
-    if (block_.size() < kMaxBlock) block_ += c;
+    if (block_.size() < kMaxScannedBlock) block_ += c;
     return true;
   }
   return end_block();

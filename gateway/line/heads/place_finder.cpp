@@ -8,7 +8,6 @@ namespace dripline::line {
 namespace {
 
 constexpr std::size_t kBlockHead = 24;
-constexpr std::size_t kMaxBlock = 4096;  ///< the rest of a longer block is not searched
 
 }  // namespace
 
@@ -20,7 +19,7 @@ std::string to_text(const WantedPlace& wanted) {
 }
 
 PlaceFinder::PlaceFinder(const WantedPlace& wanted, std::string_view control)
-    : wanted_(wanted), kept_(wanted.tool ? kMaxBlock : kBlockHead) {
+    : wanted_(wanted), kept_(wanted.tool ? kMaxScannedBlock : kBlockHead) {
   if (wanted.tool) tools_.emplace(control, *wanted.tool);
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace dripline::line {
+
+inline constexpr std::size_t kMaxScannedBlock = 4096;  ///< bytes; the rest of one is not searched
 
 /// A letter and everything up to the next one, as it is written.
 struct ScannedWord {
