@@ -196,7 +196,7 @@ int remove_machine(Context& context, client::Client& client, const std::string& 
   return kExitOk;
 }
 
-void add_remove(Command group, Context& context) {
+void add_remove_machine(Command group, Context& context) {
   auto command = group.add_subcommand("remove", "Remove a machine that is no more there");
   auto name = std::make_shared<std::string>();
   command.add_option("NAME", *name, "The machine").required();
@@ -283,7 +283,7 @@ void add_machine_commands(Command app, Context& context) {
 
   add_switch(group, context);
   add_confirm_gateway(group, context);
-  add_remove(group, context);
+  add_remove_machine(group, context);
   add_value_verbs(group, context);
   add_mdi(group, context);
   add_position_verbs(group, context);

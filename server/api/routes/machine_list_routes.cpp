@@ -25,7 +25,7 @@ Response show_machine(Services& services, const Request& request) {
   return value_response(200, services.machines.machine(request.parameter("name")), machine_json);
 }
 
-Response remove_machine(Services& services, const Request& request) {
+Response remove_from_list(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
   const auto removed = services.machines.remove(request.parameter("name"), request.who);
@@ -37,7 +37,7 @@ Response remove_machine(Services& services, const Request& request) {
 void add_machine_list_routes(Router& router, Services& services) {
   router.add("GET", "/api/v1/machines", with(services, list_machines));
   router.add("GET", "/api/v1/machines/{name}", with(services, show_machine));
-  router.add("DELETE", "/api/v1/machines/{name}", with(services, remove_machine));
+  router.add("DELETE", "/api/v1/machines/{name}", with(services, remove_from_list));
 }
 
 }  // namespace dripline::api
