@@ -63,7 +63,7 @@ TEST(ControlLine, HoldsTheHostWhileItsMemoryIsFull) {
   const std::string text = program(2000);
   host.send(text);
   Delivered delivered;
-  ASSERT_TRUE(eventually([&] { return host.is_stopped(); }, 20s));
+  ASSERT_TRUE(eventually([&] { return host.is_stopped(); }));
   delivered.take(*control);
   EXPECT_GE(delivered.text.size(), 1024U);
   EXPECT_LT(delivered.text.size(), 1024U + 256U) << "the host did not stop";
