@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <openssl/pem.h>
-#include <openssl/x509.h>
+#include <openssl/x509v3.h>
 #include <fstream>
 
 #include "tests/support/temporary_folder.hpp"
@@ -32,6 +32,9 @@ class TlsClientTest : public testing::Test {
                                reinterpret_cast<const unsigned char*>("broker.example"), -1, -1, 0);
     X509_set_issuer_name(certificate_.get(), name);
     X509_set_pubkey(certificate_.get(), key_.get());
+    const std::unique_ptr<X509_EXTENSION, Freed<&X509_EXTENSION_free>> names(
+        X509V3_EXT_conf_nid(nullptr, nullptr, NID_subject_alt_name, "DNS:broker.example"));
+    X509_add_ext(certificate_.get(), names.get(), -1);
     X509_sign(certificate_.get(), key_.get(), EVP_sha256());
     const auto ca = folder_.path() / "ca.pem";
     const std::unique_ptr<FILE, Freed<&fclose>> file(fopen(ca.c_str(), "w"));
